@@ -1,0 +1,17 @@
+#include "geometry/parallel.h"
+#include <omp.h>
+
+static int thread_count; /* 0: one per core */
+
+void parallel_set_threads(int threads) { thread_count = threads; }
+
+int parallel_threads(void) { return thread_count > 0 ? thread_count : omp_get_num_procs(); }
+
+void parallel_for(int64_t count, int64_t grain, parallel_body *body, void *context)
+{
+    if (grain < 1) grain = 1;
+    int64_t blocks = (count + grain - 1) / grain;
+#pragma omp parallel for schedule(dynamic) num_threads(parallel_threads()) if (blocks > 1)
+    for (int64_t b = 0; b < blocks; b++)
+        body(b * grain, (b + 1) * grain < count ? (b + 1) * grain : count, context);
+}

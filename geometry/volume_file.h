@@ -1,0 +1,31 @@
+/* volume_file: label maps on a regular grid, from NRRD (.nrrd, .seg.nrrd; teem) and NIfTI (.nii, .nii.gz). */
+#pragma once
+#include "geometry/err.h"
+#include <stdint.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct volume_segment { /* a named label of a segmentation file */
+    char name[64];
+    int32_t label, layer;
+} volume_segment;
+
+typedef struct volume {
+    int32_t size[3];        /* voxels along i, j, k (i fastest) */
+    int32_t layers;         /* 1, or the number of overlapping layers of a .seg.nrrd */
+    double origin[3];       /* centre of voxel 0, LPS mm */
+    double step[3][3];      /* step[a]: LPS mm vector from one voxel to the next along axis a */
+    int16_t *value;         /* [layers*size0*size1*size2] layer slowest: label or HU */
+    int32_t segment_count;
+    volume_segment *segment;
+} volume;
+
+void volume_free(volume *v);
+/* Refuses (ERR_INPUT) unknown extensions, unknown or missing space, sheared or degenerate axes, values beyond 16
+ * bits. */
+bool volume_read(const char *path, volume *out, err *e) MUST_CHECK;
+
+#ifdef __cplusplus
+}
+#endif
