@@ -1,0 +1,220 @@
+/* jansson gives no positions of parsed values, so a place is found, only when a message needs it, by walking
+ * the text again along the pointer. The text was parsed before, so the walk can rely on its syntax. */
+#include "geometry/json_file.h"
+#include "geometry/mem.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MAX_BYTES = 64 << 20 };
+
+void json_file_free(json_file *f)
+{
+    free(f->path);
+    free(f->text);
+    json_decref(f->root);
+    *f = (json_file){0};
+}
+
+bool json_file_parse(const char *text, size_t size, const char *path, json_file *out, err *e)
+{
+    static const char mark[] = "\xEF\xBB\xBF"; /* byte order mark, as some editors write it */
+    if (size >= 3 && !memcmp(text, mark, 3)) {
+        text += 3;
+        size -= 3;
+    }
+    size_t blank = 0;
+    while (blank < size && memchr(" \t\r\n", text[blank], 4)) blank++;
+    if (blank == size) return err_at(e, ERR_INPUT, path, 0, NULL, "the file is empty");
+    if (memchr(text, 0, size)) return err_at(e, ERR_INPUT, path, 0, NULL, "a binary file, not JSON");
+    json_error_t why;
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &why);
+    if (!root)
+        return err_at(e, ERR_INPUT, path, why.line, NULL, "not valid JSON: %s (column %d)", why.text,
+                      why.column);
+    *out = (json_file){.path = mem_text(path), .text = mem_alloc(size + 1, 1), .root = root};
+    memcpy(out->text, text, size);
+    return true;
+}
+
+bool json_file_read(const char *path, json_file *out, err *e)
+{
+    struct stat info;
+    if (stat(path, &info)) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
+    if (!S_ISREG(info.st_mode))
+        return err_at(e, ERR_INPUT, path, 0, NULL, "is %s, not a file",
+                      S_ISDIR(info.st_mode) ? "a folder" : "a device");
+    if (info.st_size > MAX_BYTES)
+        return err_at(e, ERR_INPUT, path, 0, NULL, "has %lld bytes; at most %d are read",
+                      (long long)info.st_size, MAX_BYTES);
+    FILE *in = fopen(path, "rb");
+    if (!in) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
+    size_t want = (size_t)info.st_size;
+    char *text = mem_alloc(want + 1, 1);
+    size_t got = fread(text, 1, want, in);
+    fclose(in);
+    bool ok = got == want ? json_file_parse(text, got, path, out, e)
+                          : err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read to its end");
+    free(text);
+    return ok;
+}
+
+static const char *skip_blank(const char *p)
+{
+    return p + strspn(p, " \t\r\n");
+}
+
+static const char *skip_string(const char *p) /* at the opening quote */
+{
+    for (p++; *p && *p != '"'; p++)
+        if (*p == '\\' && p[1]) p++;
+    return *p ? p + 1 : p;
+}
+
+static const char *skip_value(const char *p)
+{
+    int depth = 0;
+    do {
+        if (*p == '"') {
+            p = skip_string(p);
+            continue;
+        }
+        if (*p == '{' || *p == '[') depth++;
+        if (*p == '}' || *p == ']') depth--;
+        size_t plain = strcspn(p, "\"{}[], \t\r\n:");
+        p += plain ? plain : 1;
+    } while (*p && depth > 0);
+    return p;
+}
+
+/* One reference token of a pointer, ~1 and ~0 undone; returns the rest of the pointer. */
+static const char *next_token(const char *pointer, char *token, size_t size)
+{
+    size_t n = 0;
+    for (pointer += *pointer == '/'; *pointer && *pointer != '/'; pointer++) {
+        char c = *pointer;
+        if (c == '~' && (pointer[1] == '0' || pointer[1] == '1')) c = *++pointer == '0' ? '~' : '/';
+        if (n + 1 < size) token[n++] = c;
+    }
+    token[n] = 0;
+    return pointer;
+}
+
+static bool key_is(const char *quoted, const char *end, const char *token)
+{
+    size_t n = (size_t)(end - quoted);
+    if (!memchr(quoted, '\\', n)) return strlen(token) == n - 2 && !memcmp(quoted + 1, token, n - 2);
+    json_t *key = json_loadb(quoted, n, JSON_DECODE_ANY, NULL);
+    bool same = key && !strcmp(json_string_value(key), token);
+    json_decref(key);
+    return same;
+}
+
+/* Where the member or element `token` of the value at p begins: *place for people (its key), the return value
+ * for the walk (its value). NULL if there is none. */
+static const char *step_into(const char *p, const char *token, const char **place)
+{
+    bool object = *p == '{';
+    if (!object && *p != '[') return NULL;
+    char *end;
+    long index = strtol(token, &end, 10);
+    if (!object && (end == token || *end)) return NULL;
+    p = skip_blank(p + 1);
+    for (long i = 0; *p && *p != '}' && *p != ']'; i++) {
+        const char *start = p;
+        bool found = !object && i == index;
+        if (object) {
+            const char *key_end = skip_string(p);
+            found = key_is(p, key_end, token);
+            p = skip_blank(skip_blank(key_end) + 1);
+        }
+        if (found) {
+            *place = start;
+            return p;
+        }
+        p = skip_blank(skip_value(p));
+        if (*p == ',') p = skip_blank(p + 1);
+    }
+    return NULL;
+}
+
+int json_file_line(const json_file *f, const char *pointer)
+{
+    char token[256];
+    const char *p = skip_blank(f->text), *place = p;
+    while (p && *pointer) {
+        pointer = next_token(pointer, token, sizeof token);
+        p = step_into(p, token, &place);
+    }
+    int line = 1;
+    for (const char *c = f->text; c < place; c++) line += *c == '\n';
+    return line;
+}
+
+void json_file_field(const json_file *f, const char *pointer, char *field, size_t size)
+{
+    char token[256];
+    size_t n = 0;
+    const json_t *value = f->root;
+    field[0] = 0;
+    while (*pointer && n < size) {
+        pointer = next_token(pointer, token, sizeof token);
+        bool element = json_is_array(value);
+        int wrote = element ? snprintf(field + n, size - n, "[%s]", token)
+                            : snprintf(field + n, size - n, "%s%s", n ? "." : "", token);
+        value = element ? json_array_get(value, strtoul(token, NULL, 10)) : json_object_get(value, token);
+        if (wrote > 0) n += (size_t)wrote;
+    }
+}
+
+bool json_file_refuse(const json_file *f, const char *pointer, err *e, const char *fmt, ...)
+{
+    char field[256], text[768];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    json_file_field(f, pointer, field, sizeof field);
+    return err_at(e, ERR_INPUT, f->path, json_file_line(f, pointer), *field ? field : NULL, "%s", text);
+}
+
+bool json_file_vec3(const json_file *f, const json_t *value, const char *pointer, double out[3], err *e)
+{
+    if (!json_is_array(value) || json_array_size(value) != 3)
+        return json_file_refuse(f, pointer, e, "must be three numbers [x, y, z]");
+    double v[3];
+    for (size_t i = 0; i < 3; i++) {
+        const json_t *c = json_array_get(value, i);
+        if (!json_is_number(c)) return json_file_refuse(f, pointer, e, "must be three numbers [x, y, z]");
+        v[i] = json_number_value(c);
+    }
+    memcpy(out, v, sizeof v);
+    return true;
+}
+
+bool json_file_write(const json_t *root, const char *path, err *e)
+{
+    size_t size = strlen(path) + 32;
+    char *part = mem_alloc(size, 1);
+    snprintf(part, size, "%s.part-%ld", path, (long)getpid());
+    FILE *out = fopen(part, "wb");
+    bool ok =
+        out && !json_dumpf(root, out, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) && fputc('\n', out) != EOF;
+    int why = errno;
+    if (out) {
+        if (ok && (fflush(out) || fsync(fileno(out)))) ok = false, why = errno;
+        if (fclose(out) && ok) ok = false, why = errno;
+    }
+    if (ok && rename(part, path)) ok = false, why = errno;
+    if (!ok) {
+        unlink(part);
+        err_at(e, ERR_RESOURCE, path, 0, NULL, "cannot be written: %s", strerror(why));
+    }
+    free(part);
+    return ok;
+}
