@@ -1,5 +1,6 @@
 #include "geometry/frame.h"
 #include "geometry/vec.h"
+#include <stddef.h>
 
 static const double *need(const landmarks *l, const char *label, err *e)
 {
