@@ -1,0 +1,112 @@
+/* newton: the shape of the tissue in equilibrium once the bones have moved.
+ *
+ * Minimises the elastic energy over the unknowns of `boundary`. Project-on-demand: the true Hessian is factorised; only
+ * where it is not positive definite are its element blocks clamped, and only where that fails too a multiple of the
+ * identity is added. Between factorisations the old factor is improved by the last steps (L-BFGS: Nocedal 1980, with
+ * the factor as initial matrix) while that is the cheaper way down. Steps are halved until the energy falls enough
+ * (Armijo); where the fall is below rounding, until the residual falls. A tet may invert on the way and in the result:
+ * the Stable Neo-Hookean energies allow it, so it is counted, not hidden. Several equilibria can exist; the one reached
+ * depends on the load path, which is recorded. */
+#pragma once
+#include "sim/assemble.h"
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum solve_outcome {
+    SOLVED,
+    STOPPED_MAX_ITERATIONS,
+    STOPPED_LINE_SEARCH, /* no step lowers the energy */
+    STOPPED_NOT_FINITE,  /* the start has no energy: a tet inverted in a model that forbids it */
+    STOPPED_SINGULAR,    /* no shift makes the matrix positive definite */
+    STOPPED_MAX_HALVINGS, /* the load step became too small */
+    STOPPED_INTERRUPTED
+} solve_outcome;
+const char *solve_outcome_text(solve_outcome outcome);
+
+typedef enum hessian_kind {
+    HESSIAN_TRUE,
+    HESSIAN_REUSED, /* an earlier factor and the steps since */
+    HESSIAN_PROJECTED,
+    HESSIAN_SHIFTED /* projected and shifted */
+} hessian_kind;
+
+typedef struct newton_record {
+    double load;        /* 0..1 */
+    int iteration;      /* from 1 at each load; 0: the start */
+    double residual_mn; /* after the step: norm of the force on the unknowns */
+    double tolerance_mn, energy_uj;
+    double step;        /* fraction of the direction taken */
+    hessian_kind hessian;
+    double factor_s;    /* wall time of factorising for this step */
+    double min_j;
+    int32_t inverted_count;
+} newton_record;
+
+typedef enum predictor {
+    PREDICT_RIGID,  /* free nodes follow the guide of `boundary` */
+    PREDICT_ELASTIC /* and the linear response to what the guide leaves */
+} predictor;
+
+typedef struct solve_params {
+    int load_steps;             /* >= 1 */
+    int max_halvings;           /* failed loads that are tried again at half the step, in all; 0: none */
+    int max_iterations;         /* at one load */
+    int max_step_cuts;          /* halvings within one line search */
+    double rel_tol;             /* of the residual with the bones moved and the free tissue at rest */
+    double intermediate_rel_tol; /* the same before the last load */
+    double max_step_mm;         /* longest move of an unknown in one iteration */
+    predictor predictor;
+    projection projection;      /* CLAMP or ABS */
+    bool reuse_factor;          /* false: factorise in each iteration */
+    int blas_threads;           /* 1: the same bits whatever the machine is doing; see linear.h */
+    bool (*interrupted)(void *context); /* NULL or asked in each iteration */
+    void (*progress)(const newton_record *record, void *context); /* NULL or told after each iteration */
+    void *context;
+} solve_params;
+
+solve_params solve_params_default(void);
+
+typedef struct equilibrium_problem {
+    const tetmesh *mesh;
+    const attach_map *attach;
+    const region_material *materials;
+    int32_t material_count;
+    rigid motion[SEGMENT_COUNT]; /* where each bone goes from rest */
+    const double *start_xyz;     /* [3*nodes] a guess at the result, or NULL */
+} equilibrium_problem;
+
+typedef struct equilibrium {
+    solve_outcome outcome;
+    double load_reached;         /* last load solved; 1 exactly when SOLVED */
+    int32_t node_count;
+    double *xyz;                 /* [3*node_count] mm; of the last iterate where not SOLVED */
+    int32_t record_count;
+    newton_record *record;       /* [record_count] every iteration of every load, failed ones too */
+    int iterations, factorisations, loads, halvings;
+    double energy_uj, residual_mn, reference_mn, tolerance_mn;
+    deformation_extremes extremes;
+    double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
+    double imbalance;            /* |sum of these| over the sum of their node forces' norms */
+    double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */
+    int64_t unknown_count, matrix_entries, factor_entries;
+    double factor_flops, memory_peak_mb;
+} equilibrium;
+
+/* Refuses what elements_make, boundary_make, assembly_make and linear_create refuse, (ERR_INPUT) parameters out of
+ * range and non-finite motions. A solve that fails is not a refusal: it returns true, and outcome says why. */
+bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out,
+                       err *e) MUST_CHECK;
+void equilibrium_free(equilibrium *q);
+
+/* The same in two parts: everything that does not depend on the motion is kept for the next plan. mesh and attach are
+ * borrowed until tissue_destroy; motion and start_xyz are not looked at. */
+typedef struct tissue tissue;
+bool tissue_create(const equilibrium_problem *problem, int blas_threads, tissue **out, err *e) MUST_CHECK;
+void tissue_destroy(tissue **t);
+bool tissue_solve(tissue *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+                  equilibrium *out, err *e) MUST_CHECK;
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,216 @@
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include "sim/motion.h"
+#include "sim/src/clock.h"
+#include "sim/src/descent.h"
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *solve_outcome_text(solve_outcome outcome)
+{
+    switch (outcome) {
+    case SOLVED: return "solved";
+    case STOPPED_MAX_ITERATIONS: return "stopped: too many iterations";
+    case STOPPED_LINE_SEARCH: return "stopped: no step lowers the energy";
+    case STOPPED_NOT_FINITE: return "stopped: a tet is inverted in a material that forbids it";
+    case STOPPED_SINGULAR: return "stopped: the stiffness matrix cannot be made positive definite";
+    case STOPPED_MAX_HALVINGS: return "stopped: the load step became too small";
+    case STOPPED_INTERRUPTED: return "interrupted";
+    }
+    assert(0);
+    return "";
+}
+
+solve_params solve_params_default(void)
+{
+    return (solve_params){.load_steps = 1,
+                          .max_halvings = 8,
+                          .max_iterations = 60,
+                          .max_step_cuts = 20,
+                          .rel_tol = 1e-8,
+                          .intermediate_rel_tol = 1e-4,
+                          .max_step_mm = 30,
+                          .predictor = PREDICT_ELASTIC,
+                          .projection = PROJECTION_CLAMP,
+                          .reuse_factor = true,
+                          .blas_threads = 1};
+}
+
+static bool check_params(const solve_params *p, err *e)
+{
+    if (p->load_steps < 1) return err_set(e, ERR_INPUT, "load_steps must be >= 1, got %d", p->load_steps);
+    if (p->max_halvings < 0) return err_set(e, ERR_INPUT, "max_halvings must be >= 0, got %d", p->max_halvings);
+    if (p->max_iterations < 0) return err_set(e, ERR_INPUT, "max_iterations must be >= 0, got %d", p->max_iterations);
+    if (p->max_step_cuts < 0) return err_set(e, ERR_INPUT, "max_step_cuts must be >= 0, got %d", p->max_step_cuts);
+    if (!(p->rel_tol > 0 && p->rel_tol < 1))
+        return err_set(e, ERR_INPUT, "rel_tol must lie between 0 and 1, got %g", p->rel_tol);
+    if (!(p->intermediate_rel_tol > 0 && p->intermediate_rel_tol < 1))
+        return err_set(e, ERR_INPUT, "intermediate_rel_tol must lie between 0 and 1, got %g", p->intermediate_rel_tol);
+    if (!(p->max_step_mm > 0)) return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
+    if (p->projection != PROJECTION_CLAMP && p->projection != PROJECTION_ABS)
+        return err_set(e, ERR_INPUT, "projection must be clamp or abs");
+    if (p->blas_threads < 1) return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", p->blas_threads);
+    return true;
+}
+
+bool tissue_create(const equilibrium_problem *problem, int blas_threads, tissue **out, err *e)
+{
+    double begin = clock_s();
+    if (blas_threads < 1) return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", blas_threads);
+    elements el = {0};
+    tissue *t = NEW_ARRAY(tissue, 1);
+    t->mesh = problem->mesh;
+    t->attach = problem->attach;
+    bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e) &&
+              boundary_make(problem->mesh, problem->attach, &t->b, e) && assembly_make(problem->mesh, &el, &t->b, &t->a, e);
+    if (ok && t->b.unknown_count > 0)
+        ok = linear_create(t->b.unknown_count, t->a.column_start, t->a.row, blas_threads, &t->l, e);
+    elements_free(&el);
+    if (!ok) {
+        tissue_destroy(&t);
+        return false;
+    }
+    t->prepare_s = clock_s() - begin;
+    *out = t;
+    return true;
+}
+
+void tissue_destroy(tissue **t)
+{
+    if (!*t) return;
+    linear_destroy(&(*t)->l);
+    assembly_free(&(*t)->a);
+    boundary_free(&(*t)->b);
+    free(*t);
+    *t = NULL;
+}
+
+/* What each bone does to the tissue, and whether it sums to nothing. */
+static void find_reactions(const tissue *t, const double *force, equilibrium *q)
+{
+    double sum[3] = {0}, norms = 0;
+    for (int32_t v = 0; v < t->b.node_count; v++) {
+        if (t->attach->kind[v] == NODE_FREE) continue;
+        const double *f = force + 3 * (size_t)v;
+        double held[3];
+        vec_copy(f, held);
+        if (t->attach->kind[v] == NODE_SLIDING) { /* frictionless: the bone holds along the normal only */
+            const double *n = t->b.basis + 9 * (size_t)v;
+            vec_scale(n, vec_dot(f, n), held);
+        }
+        vec_add(q->segment_force_mn[t->attach->segment[v]], held, q->segment_force_mn[t->attach->segment[v]]);
+        vec_add(sum, held, sum);
+        norms += vec_norm(held);
+    }
+    q->imbalance = norms > 0 ? vec_norm(sum) / norms : 0;
+}
+
+static void move_bones(tissue *t, const rigid motion[SEGMENT_COUNT], double load)
+{
+    rigid part[SEGMENT_COUNT];
+    for (int s = 0; s < SEGMENT_COUNT; s++) part[s] = motion_part(&motion[s], load);
+    boundary_move(&t->b, t->mesh, t->attach, part);
+}
+
+bool tissue_solve(tissue *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+                  equilibrium *out, err *e)
+{
+    if (!check_params(params, e)) return false;
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        double m[16];
+        rigid checked;
+        rigid_to_matrix(&motion[s], m);
+        if (!rigid_from_matrix(m, &checked, e)) return err_prefix(e, "motion of %s", segment_name((segment_id)s));
+    }
+    double begin = clock_s();
+    size_t n = 3 * (size_t)t->b.node_count;
+    for (size_t i = 0; start_xyz && i < n; i++)
+        if (!isfinite(start_xyz[i])) return err_set(e, ERR_INPUT, "start position of node %zu is not finite", i / 3);
+    linear_stats before = t->l ? linear_measure(t->l) : (linear_stats){0};
+    equilibrium q = {.node_count = t->b.node_count, .xyz = NEW_ARRAY(double, n), .prepare_s = t->prepare_s};
+    double *at_load = COPY_ARRAY(double, t->mesh->xyz, n), *start = NEW_ARRAY(double, n);
+    descent d;
+    descent_make(&d, t, params, &q);
+    bool ok = true, from_guess = start_xyz != NULL;
+    int eased = 0;
+    double step = 1.0 / params->load_steps;
+    solve_outcome outcome = STOPPED_MAX_ITERATIONS;
+    while (q.load_reached < 1) {
+        double target = q.load_reached + step;
+        if (from_guess || target > 1 - 1e-9) target = 1;
+        if (from_guess) {
+            memcpy(start, start_xyz, n * sizeof *start);
+            move_bones(t, motion, target);
+        } else { /* the last equilibrium, carried along by the guide */
+            move_bones(t, motion, q.load_reached);
+            rigid back = rigid_inverse(&t->b.guide), carry;
+            bool resting = rigid_is_identity(&t->b.guide);
+            move_bones(t, motion, target);
+            carry = resting ? t->b.guide : rigid_compose(&t->b.guide, &back);
+            for (size_t v = 0; v < n; v += 3) rigid_apply(&carry, at_load + v, start + v);
+        }
+        q.loads++;
+        double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
+        ok = descent_run(&d, target, rel_tol, start, &outcome, e);
+        if (!ok || outcome == STOPPED_INTERRUPTED) break;
+        if (outcome == SOLVED) {
+            q.load_reached = target;
+            memcpy(at_load, d.x, n * sizeof *at_load);
+            if (++eased >= 2) step = fmin(2 * step, 1.0 / params->load_steps);
+        } else if (from_guess && params->max_halvings > 0) {
+            q.halvings++; /* the guess led nowhere: take the way from rest */
+        } else if (q.halvings < params->max_halvings) {
+            q.halvings++;
+            eased = 0;
+            step = (target - q.load_reached) / 2;
+        } else {
+            if (params->max_halvings > 0) outcome = STOPPED_MAX_HALVINGS;
+            break;
+        }
+        from_guess = false;
+    }
+    if (ok) {
+        memcpy(q.xyz, d.x, n * sizeof *q.xyz);
+        q.outcome = outcome;
+        q.energy_uj = d.energy;
+        q.residual_mn = d.residual;
+        q.tolerance_mn = d.tolerance;
+        q.extremes = assembly_extremes(&t->a, q.xyz, true);
+        find_reactions(t, d.force, &q);
+        q.unknown_count = t->b.unknown_count;
+        if (t->l) {
+            linear_stats s = linear_measure(t->l);
+            q.factorisations = s.factorisations - before.factorisations;
+            q.factor_s = s.factor_s - before.factor_s;
+            q.solve_s = s.solve_s - before.solve_s;
+            q.matrix_entries = s.matrix_entries;
+            q.factor_entries = s.factor_entries;
+            q.factor_flops = s.factor_flops;
+            q.memory_peak_mb = s.memory_peak_mb;
+        }
+        q.total_s = clock_s() - begin;
+        *out = q;
+    } else equilibrium_free(&q);
+    descent_free(&d);
+    free(at_load);
+    free(start);
+    return ok;
+}
+
+bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out, err *e)
+{
+    tissue *t = NULL;
+    if (!check_params(params, e) || !tissue_create(problem, params->blas_threads, &t, e)) return false;
+    bool ok = tissue_solve(t, problem->motion, problem->start_xyz, params, out, e);
+    if (ok) out->total_s += out->prepare_s;
+    tissue_destroy(&t);
+    return ok;
+}
+
+void equilibrium_free(equilibrium *q)
+{
+    free(q->xyz);
+    free(q->record);
+    *q = (equilibrium){0};
+}

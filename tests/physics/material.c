@@ -1,0 +1,289 @@
+#include "tests/check.h"
+#include "sim/element.h"
+#include "sim/src/svd3.h"
+#include "geometry/rigid.h"
+#include "tests/physics/block.h"
+#include <string.h>
+
+static material make(material_model model, double poisson)
+{
+    err e = {0};
+    material m;
+    assert_ok(material_make(model, 15, poisson, &m, &e));
+    return m;
+}
+
+static const double poissons[] = {-0.3, 0, 0.3, 0.45, 0.49, 0.499};
+
+/* Near rest, large, sheared, flattened, inverted; models without inversion get positive J only. */
+static void some_F(uint64_t *seed, int which, bool may_invert, double F[9])
+{
+    for (;;) {
+        double size = which % 3 == 0 ? 1e-3 : which % 3 == 1 ? 0.3 : 1.6;
+        for (int i = 0; i < 9; i++) F[i] = (i % 4 == 0) + size * block_random(seed);
+        if (may_invert || mat_det(F) > 0.2) return;
+    }
+}
+
+static void forces_are_the_derivative_of_energy_and_hessian_of_forces(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    int inverted = 0;
+    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
+        for (size_t p = 0; p < sizeof poissons / sizeof *poissons; p++)
+            for (int n = 0; n < 12; n++) {
+                material m = make((material_model)model, poissons[p]);
+                double F[9], P[9], H[81], scale = m.mu_kpa + fabs(m.lambda_kpa), h = 1e-4;
+                some_F(&seed, n, model <= MATERIAL_SNH, F);
+                inverted += mat_det(F) < 0;
+                material_stress(&m, F, P);
+                material_hessian(&m, F, H);
+                for (int i = 0; i < 9; i++) {
+                    /* fourth order differences: truncation and rounding both well below 1e-6 */
+                    double psi[4], Q[4][9], at[4] = {-2 * h, -h, h, 2 * h};
+                    for (int k = 0; k < 4; k++) {
+                        double G[9];
+                        memcpy(G, F, sizeof G);
+                        G[i] += at[k];
+                        psi[k] = material_energy(&m, G);
+                        material_stress(&m, G, Q[k]);
+                    }
+                    assert_near((psi[0] - 8 * psi[1] + 8 * psi[2] - psi[3]) / (12 * h), P[i], 1e-6 * scale);
+                    for (int j = 0; j < 9; j++)
+                        assert_near((Q[0][j] - 8 * Q[1][j] + 8 * Q[2][j] - Q[3][j]) / (12 * h), H[9 * j + i],
+                                    1e-6 * scale);
+                }
+            }
+    assert_true(inverted > 10);
+}
+
+static void rest_has_no_stress_and_no_energy_at_any_rotation(void **state)
+{
+    (void)state;
+    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
+        for (size_t p = 0; p < sizeof poissons / sizeof *poissons; p++) {
+            material m = make((material_model)model, poissons[p]);
+            double I[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, P[9];
+            material_stress(&m, I, P);
+            for (int i = 0; i < 9; i++) assert_near(P[i], 0, 1e-12 * m.mu_kpa);
+            assert_near(material_energy(&m, I), 0, 0);
+            rigid r = rigid_rotation((double[]){0, 0, 0}, (double[]){1, 2, -1}, 2.2);
+            material_stress(&m, r.r, P);
+            for (int i = 0; i < 9; i++) assert_near(P[i], 0, 1e-13 * (m.mu_kpa + fabs(m.lambda_kpa)));
+        }
+}
+
+static void small_strains_obey_young_and_poisson(void **state)
+{
+    (void)state;
+    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
+        for (size_t p = 0; p < sizeof poissons / sizeof *poissons; p++) {
+            double nu = poissons[p], P[9], s = 1e-6;
+            material m = make((material_model)model, nu);
+            double stretched[9] = {1 + s, 0, 0, 0, 1 - nu * s, 0, 0, 0, 1 - nu * s};
+            material_stress(&m, stretched, P);
+            double scale = (m.mu_kpa + fabs(m.lambda_kpa)) * s * 1e-5;
+            assert_near(P[0], 15 * s, scale);
+            assert_near(P[4], 0, scale);
+            double sheared[9] = {1, s, 0, 0, 1, 0, 0, 0, 1};
+            material_stress(&m, sheared, P);
+            assert_near(P[1], 15 / (2 * (1 + nu)) * s, scale);
+        }
+}
+
+static void energy_does_not_see_rotations(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    rigid r = rigid_rotation((double[]){0, 0, 0}, (double[]){0.3, -1, 0.2}, 1.1);
+    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
+        for (int n = 0; n < 9; n++) {
+            material m = make((material_model)model, 0.45);
+            double F[9], RF[9] = {0};
+            some_F(&seed, n, model <= MATERIAL_SNH, F);
+            for (int i = 0; i < 9; i++)
+                for (int k = 0; k < 3; k++) RF[i] += r.r[i / 3 * 3 + k] * F[3 * k + i % 3];
+            assert_near(material_energy(&m, RF), material_energy(&m, F), 1e-11 * (m.mu_kpa + m.lambda_kpa));
+        }
+}
+
+static double lowest_eigenvalue(const double H[81], double shift)
+{
+    /* inverse-free: Cholesky of H + shift succeeds exactly where the lowest eigenvalue exceeds -shift */
+    double low = -1e6, high = 1e6;
+    for (int k = 0; k < 80; k++) {
+        double mid = (low + high) / 2, L[81] = {0};
+        bool positive = true;
+        for (int i = 0; i < 9 && positive; i++)
+            for (int j = 0; j <= i && positive; j++) {
+                double sum = H[9 * i + j] - (i == j ? mid : 0);
+                for (int q = 0; q < j; q++) sum -= L[9 * i + q] * L[9 * j + q];
+                if (i == j) positive = sum > 0;
+                L[9 * i + j] = i == j ? sqrt(fmax(sum, 0)) : sum / L[10 * j];
+            }
+        if (positive) low = mid;
+        else high = mid;
+    }
+    return low + shift;
+}
+
+static void projected_hessian_is_positive_and_keeps_what_was_positive(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    int changed = 0;
+    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
+        for (int n = 0; n < 60; n++) {
+            material m = make((material_model)model, poissons[n % 6]);
+            double F[9], H[81], C[81], A[81], value[9], mode[9][9], scale = 0;
+            some_F(&seed, n, model <= MATERIAL_SNH, F);
+            material_hessian(&m, F, H);
+            material_hessian_projected(&m, F, PROJECTION_CLAMP, C);
+            material_hessian_projected(&m, F, PROJECTION_ABS, A);
+            for (int i = 0; i < 81; i++) scale = fmax(scale, fabs(H[i]));
+            double low = lowest_eigenvalue(H, 0);
+            assert_true(lowest_eigenvalue(C, 0) > -1e-10 * scale);
+            assert_true(lowest_eigenvalue(A, 0) > -1e-10 * scale);
+            material_terms t = material_terms_at(&m, F);
+            int count = material_negative_modes(&t, F, value, mode);
+            double lowest = 0;
+            for (int k = 0; k < count; k++) { /* true eigenpairs of H */
+                lowest = fmin(lowest, value[k]);
+                for (int i = 0; i < 9; i++) {
+                    double sum = -value[k] * mode[k][i];
+                    for (int j = 0; j < 9; j++) sum += H[9 * i + j] * mode[k][j];
+                    assert_near(sum, 0, 1e-10 * scale);
+                }
+            }
+            assert_near(fmin(low, 0), lowest, 1e-9 * scale);
+            changed += count > 0;
+        }
+    assert_true(changed > 20);
+}
+
+static void element_forces_and_stiffness_are_derivatives(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++) {
+        err e = {0};
+        region_material table = {0, make((material_model)model, 0.45)};
+        block b = {1, 1, 1, {3, 4, 2}, 5, 0};
+        tetmesh mesh = block_mesh(&b);
+        elements el;
+        assert_ok(elements_make(&mesh, &table, 1, &el, &e));
+        double x[12], f[12], K[9 * ELEMENT_PAIRS], h = 1e-4;
+        for (int k = 0; k < 12; k++)
+            x[k] = mesh.xyz[3 * mesh.tet[k / 3] + k % 3] + (model <= MATERIAL_SNH ? 1.5 : 0.3) * block_random(&seed);
+        const material *m = &el.materials[0];
+        element_energy(m, el.gradient, el.volume[0], x, f);
+        element_stiffness(m, el.gradient, el.volume[0], x, PROJECTION_NONE, K);
+        double scale = (m->mu_kpa + m->lambda_kpa) * 4;
+        for (int k = 0; k < 12; k++) {
+            double y[12], fp[12], fm[12];
+            memcpy(y, x, sizeof y);
+            y[k] = x[k] + h;
+            double up = element_energy(m, el.gradient, el.volume[0], y, fp);
+            y[k] = x[k] - h;
+            double down = element_energy(m, el.gradient, el.volume[0], y, fm);
+            assert_near((up - down) / (2 * h), f[k], 1e-6 * scale);
+            for (int p = 0; p < ELEMENT_PAIRS; p++)
+                for (int i = 0; i < 3; i++)
+                    if (element_pair[p][1] == k / 3) {
+                        int row = 3 * element_pair[p][0] + i;
+                        assert_near((fp[row] - fm[row]) / (2 * h), K[9 * p + 3 * i + k % 3], 1e-6 * scale);
+                    }
+        }
+        /* the clamped blocks equal V B^T H_clamped B */
+        double F[9], H[81];
+        element_gradient_F(el.gradient, x, F);
+        material_hessian_projected(m, F, PROJECTION_CLAMP, H);
+        element_stiffness(m, el.gradient, el.volume[0], x, PROJECTION_CLAMP, K);
+        for (int p = 0; p < ELEMENT_PAIRS; p++)
+            for (int i = 0; i < 9; i++) {
+                double sum = 0;
+                for (int r = 0; r < 3; r++)
+                    for (int s = 0; s < 3; s++)
+                        sum += el.volume[0] * el.gradient[3 * element_pair[p][0] + r] * H[9 * (3 * (i / 3) + r) + 3 * (i % 3) + s] *
+                               el.gradient[3 * element_pair[p][1] + s];
+                assert_near(K[9 * p + i], sum, 1e-11 * scale);
+            }
+        elements_free(&el);
+        tetmesh_free(&mesh);
+    }
+}
+
+static void svd_rebuilds_flat_and_mirrored_matrices(void **state)
+{
+    (void)state;
+    uint64_t seed = 9;
+    for (int n = 0; n < 60; n++) {
+        double F[9], U[9], s[3], V[9];
+        for (int i = 0; i < 9; i++) F[i] = block_random(&seed);
+        if (n % 4 == 1) vec_axpy(F, 1e-9, F + 3, F + 6);        /* rank two, nearly */
+        if (n % 4 == 2) vec_scale(F, 2, F + 3), vec_scale(F, -1, F + 6); /* rank one */
+        if (n == 3) memset(F, 0, sizeof F);
+        svd3(F, U, s, V);
+        assert_near(mat_det(U), 1, 1e-13);
+        assert_near(mat_det(V), 1, 1e-13);
+        assert_true(s[0] >= s[1] && s[1] >= fabs(s[2]) - 1e-15);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                double sum = 0, uu = 0;
+                for (int k = 0; k < 3; k++) sum += U[3 * i + k] * s[k] * V[3 * j + k], uu += U[3 * k + i] * U[3 * k + j];
+                assert_near(sum, F[3 * i + j], 1e-14);
+                assert_near(uu, i == j, 1e-13);
+            }
+    }
+}
+
+static void refuses_constants_out_of_range(void **state)
+{
+    (void)state;
+    err e = {0};
+    material m;
+    assert_refused(material_make(MATERIAL_SNH_LOG, 0, 0.45, &m, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_SNH_LOG, NAN, 0.45, &m, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_SNH_LOG, 15, 0.5, &m, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_SNH_LOG, 15, -1, &m, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_SNH_LOG, 15, NAN, &m, &e), ERR_INPUT);
+    for (int i = 0; i < MATERIAL_MODEL_COUNT; i++)
+        assert_int_equal(material_model_from_name(material_model_name((material_model)i)), i);
+    assert_int_equal(material_model_from_name("rubber"), -1);
+}
+
+static void a_region_without_material_is_refused(void **state)
+{
+    (void)state;
+    err e = {0};
+    block b = {1, 1, 1, {1, 1, 1}, 6, 0};
+    tetmesh mesh = block_mesh(&b);
+    elements el;
+    region_material table[2] = {{0, make(MATERIAL_SNH, 0.3)}, {0, make(MATERIAL_SNH, 0.4)}};
+    assert_refused(elements_make(&mesh, table, 2, &el, &e), ERR_INPUT);
+    mesh.region[3] = 7;
+    assert_refused(elements_make(&mesh, table, 1, &el, &e), ERR_INPUT);
+    table[1].region = REGION_ANY;
+    assert_ok(elements_make(&mesh, table, 2, &el, &e));
+    assert_int_equal(el.material[0], 0);
+    assert_int_equal(el.material[3], 1);
+    elements_free(&el);
+    tetmesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_are_the_derivative_of_energy_and_hessian_of_forces),
+        cmocka_unit_test(rest_has_no_stress_and_no_energy_at_any_rotation),
+        cmocka_unit_test(small_strains_obey_young_and_poisson),
+        cmocka_unit_test(energy_does_not_see_rotations),
+        cmocka_unit_test(projected_hessian_is_positive_and_keeps_what_was_positive),
+        cmocka_unit_test(element_forces_and_stiffness_are_derivatives),
+        cmocka_unit_test(svd_rebuilds_flat_and_mirrored_matrices),
+        cmocka_unit_test(refuses_constants_out_of_range),
+        cmocka_unit_test(a_region_without_material_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
