@@ -61,18 +61,26 @@ static bool trees_make(const segments *segs, bone_trees *b, err *e)
     return !segs->kerf.triangle_count || nearest_create(&segs->kerf, &b->kerf, e);
 }
 
-static int nearest_segment(const bone_trees *b, const double p[3], double *gap)
+/* Do these two pieces stay together in every plan? A proximal segment keeps its condyle seated. */
+static bool move_as_one(int a, int b)
 {
+    bool still_a = a == SEGMENT_CRANIUM || a == SEGMENT_PROXIMAL_LEFT || a == SEGMENT_PROXIMAL_RIGHT;
+    bool still_b = b == SEGMENT_CRANIUM || b == SEGMENT_PROXIMAL_LEFT || b == SEGMENT_PROXIMAL_RIGHT;
+    return a == b || (still_a && still_b);
+}
+
+/* The segment a bone node touches, and its distance to the nearest other one that may move against it. */
+static int nearest_segment(const bone_trees *b, const double p[3], double *gap_to_other)
+{
+    double gap[SEGMENT_COUNT];
     int best = -1;
-    *gap = HUGE_VAL;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
-        if (!b->part[s]) continue;
-        double d = nearest_point(b->part[s], p, NULL, NULL);
-        if (d < *gap) {
-            *gap = d;
-            best = s;
-        }
+        gap[s] = b->part[s] ? nearest_point(b->part[s], p, NULL, NULL) : HUGE_VAL;
+        if (best < 0 || gap[s] < gap[best]) best = s;
     }
+    *gap_to_other = HUGE_VAL;
+    for (int s = 0; s < SEGMENT_COUNT; s++)
+        if (!move_as_one(best, s)) *gap_to_other = fmin(*gap_to_other, gap[s]);
     return best;
 }
 
@@ -86,10 +94,35 @@ static double gap_to_moving(const bone_trees *b, const double p[3])
     return gap;
 }
 
+static const double bite_band_mm = 1.5; /* mucosa between upper and lower teeth belongs to neither */
+
 static void tie(attach_map *a, int32_t v, int segment)
 {
     a->kind[v] = NODE_TIED;
     a->segment[v] = segment;
+}
+
+/* Frees the nodes of tets that hang on two bones which may move against each other: such a tet would take their whole
+ * jump on a few mm. */
+static void loosen_bridges(const tetmesh *m, attach_map *a, tissue_report *report)
+{
+    uint8_t *bridge = NEW_ARRAY(uint8_t, m->vertex_count);
+    for (int32_t t = 0; t < m->tet_count; t++) {
+        const int32_t *v = m->tet + 4 * (size_t)t;
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < i; j++)
+                if (a->kind[v[i]] != NODE_FREE && a->kind[v[j]] != NODE_FREE &&
+                    !move_as_one(a->segment[v[i]], a->segment[v[j]]))
+                    bridge[v[i]] = bridge[v[j]] = 1;
+    }
+    for (int32_t v = 0; v < m->vertex_count; v++) {
+        if (!bridge[v]) continue;
+        a->kind[v] = NODE_FREE;
+        a->segment[v] = -1;
+        memset(a->normal + 3 * (size_t)v, 0, 3 * sizeof *a->normal);
+        report->loose_nodes++;
+    }
+    free(bridge);
 }
 
 /* Sliding normals come from the distance field of the wrap; averaging over sliding neighbours takes out the relief
@@ -141,12 +174,18 @@ bool tissue_attach(const tissue_input *in, const tissue_domain *d, const tetmesh
             continue;
         }
         int segment = nearest_segment(&bones, p, &gap);
+        bool slides = in_vestibule(is_upper_jaw(segment) ? &upper : &lower, p);
+        if (gap < (slides ? bite_band_mm : d->params->cut_band_mm)) {
+            report->loose_nodes++; /* between two bones that part: condyle and fossa, upper and lower teeth */
+            continue;
+        }
         tie(&a, v, segment);
-        if (!in_vestibule(is_upper_jaw(segment) ? &upper : &lower, p)) continue;
+        if (!slides) continue;
         a.kind[v] = NODE_SLIDING;
         sdf_grid_normal(&d->wrap, p, a.normal + 3 * (size_t)v);
         if (vec_norm(a.normal + 3 * (size_t)v) < 0.5) tie(&a, v, segment); /* no direction to slide in */
     }
+    loosen_bridges(m, &a, report);
     smooth_normals(m, &a);
     for (int32_t v = 0; v < m->vertex_count; v++) {
         report->tied_nodes += a.kind[v] == NODE_TIED;
