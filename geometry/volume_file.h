@@ -1,4 +1,4 @@
-/* volume_file: label maps on a regular grid, from NRRD (.nrrd, .seg.nrrd; teem) and NIfTI (.nii, .nii.gz). */
+/* volume_file: label maps and CT on a regular grid, from NRRD (.nrrd, .seg.nrrd; teem) and NIfTI (.nii, .nii.gz). */
 #pragma once
 #include "geometry/err.h"
 #include <stdint.h>
@@ -6,7 +6,7 @@
 extern "C" {
 #endif
 
-typedef struct volume_segment { /* a named label of a segmentation file */
+typedef struct volume_segment { /* a named label of a segmentation file; choose by name, numbers change on saving */
     char name[64];
     int32_t label, layer;
 } volume_segment;
@@ -22,8 +22,9 @@ typedef struct volume {
 } volume;
 
 void volume_free(volume *v);
-/* Refuses (ERR_INPUT) unknown extensions, unknown or missing space, sheared or degenerate axes, values beyond 16
- * bits. */
+/* Numbers are rounded to whole ones (after NIfTI's slope and intercept). RAS and LAS files are turned to LPS. Refuses
+ * (ERR_INPUT, with file and field) unknown extensions, unknown or missing space, units other than mm (NIfTI's other
+ * lengths are converted), sheared or degenerate axes, values beyond 16 bits, truncated files. The caller frees *out. */
 bool volume_read(const char *path, volume *out, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
