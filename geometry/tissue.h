@@ -1,6 +1,7 @@
 /* tissue: tetrahedra between skin and wrapped skeleton, with the attachment of each node. */
 #pragma once
 #include "geometry/attach_map.h"
+#include "geometry/embed.h"
 #include "geometry/frame.h"
 #include "geometry/landmarks.h"
 #include "geometry/segments.h"
@@ -39,10 +40,21 @@ typedef struct tissue_report {
     char left_out[512];       /* what the domain leaves out, in words */
 } tissue_report;
 
+/* The sheet through the lip line: level from front to back (along Frankfort), a parabola through the mouth corners
+ * and stomion from side to side, level beyond the corners. */
+typedef struct lip_sheet {
+    head_frame frame;
+    double x[3], z[3]; /* right corner, stomion, left corner: left and up coordinates in the frame, mm */
+} lip_sheet;
+
+double lip_sheet_height(const lip_sheet *s, double x);
+void lip_sheet_normal(const lip_sheet *s, double x, double n[3]); /* unit, upwards, LPS */
+
 typedef struct tissue {
     tetmesh mesh;
     attach_map attach;
     uint8_t *side; /* [mesh.vertex_count] node_side */
+    lip_sheet lips;
 } tissue;
 
 typedef struct tissue_input {
@@ -58,6 +70,9 @@ tissue_params tissue_params_default(void);
  * landmarks: N, Me, U1, L1, Ch_L, Ch_R, Stm or Stms and Stmi, Pn, Ls. */
 bool tissue_make(const tissue_input *in, const tissue_params *p, tissue *out, tissue_report *report, err *e) MUST_CHECK;
 void tissue_free(tissue *t);
+/* Carries the vertices of a skin that lies on the tissue (within reach_mm): between the mouth corners, those above
+ * the lip sheet by the upper lip and those below by the lower lip. The caller frees. */
+embedding tissue_carry(const tissue *t, const double *xyz, int32_t count, double reach_mm);
 
 #ifdef __cplusplus
 }

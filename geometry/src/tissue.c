@@ -108,6 +108,7 @@ bool tissue_make(const tissue_input *in, const tissue_params *p, tissue *out, ti
         tissue_open_lips(&d, &t.mesh, &t.side, &lips);
         ok = tissue_attach(in, &d, &t.mesh, t.side, &lips, &t.attach, &r, e) && tetmesh_check(&t.mesh, e);
     }
+    t.lips = d.lips;
     free(lips.node);
     tissue_domain_free(&d);
     if (!ok) {

@@ -199,7 +199,7 @@ bool tissue_attach(const tissue_input *in, const tissue_domain *d, const tetmesh
         head_frame_to_local(&d->frame, m->xyz + 3 * (size_t)up, local);
         a.pair[2 * a.pair_count] = up;
         a.pair[2 * a.pair_count + 1] = low;
-        tissue_sheet_normal(d, local[0], a.pair_normal + 3 * (size_t)a.pair_count++);
+        lip_sheet_normal(&d->lips, local[0], a.pair_normal + 3 * (size_t)a.pair_count++);
     }
     report->lip_pairs = a.pair_count;
     trees_destroy(&bones);

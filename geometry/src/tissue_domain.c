@@ -48,10 +48,10 @@ static bool place_planes_and_lips(const tissue_input *in, tissue_domain *d, err 
     const double *lip[3] = {corner_r, stomion, corner_l};
     for (int k = 0; k < 3; k++) {
         head_frame_to_local(&d->frame, lip[k], local);
-        d->lip_x[k] = local[0];
-        d->lip_z[k] = local[2];
+        d->lips.x[k] = local[0];
+        d->lips.z[k] = local[2];
     }
-    if (!(d->lip_x[0] + 5 < d->lip_x[1] && d->lip_x[1] + 5 < d->lip_x[2]))
+    if (!(d->lips.x[0] + 5 < d->lips.x[1] && d->lips.x[1] + 5 < d->lips.x[2]))
         return err_set(e, ERR_INPUT, "stomion does not lie between the mouth corners Ch_R and Ch_L");
     static const char *const pairs[][2] = {{"Pn", "Sn"},   {"Sn", "Ls"},       {"Ls", "Stm"},  {"Stm", "Li_soft"},
                                            {"Ls", "Stms"}, {"Stmi", "Li_soft"}, {"Li_soft", "B'"}, {"B'", "Pg'"},
@@ -118,7 +118,7 @@ static bool make_grids(const tissue_input *in, tissue_domain *d, err *e)
 
 bool tissue_domain_make(const tissue_input *in, const tissue_params *p, tissue_domain *out, err *e)
 {
-    tissue_domain d = {.params = p, .frame = *in->frame};
+    tissue_domain d = {.params = p, .frame = *in->frame, .lips.frame = *in->frame};
     if (!place_planes_and_lips(in, &d, e)) return false;
     find_box(in, &d);
     if (!(d.high[0] > d.low[0] + 20)) return err_set(e, ERR_GEOMETRY, "no skin in front of the coronal cut");
@@ -137,25 +137,6 @@ void tissue_domain_free(tissue_domain *d)
     sdf_grid_free(&d->span);
 }
 
-double tissue_sheet_height(const tissue_domain *d, double x)
-{
-    const double *u = d->lip_x, *z = d->lip_z;
-    if (x <= u[0]) return z[0];
-    if (x >= u[2]) return z[2];
-    /* parabola through the three points */
-    double a = (x - u[1]) * (x - u[2]) / ((u[0] - u[1]) * (u[0] - u[2]));
-    double b = (x - u[0]) * (x - u[2]) / ((u[1] - u[0]) * (u[1] - u[2]));
-    return a * z[0] + b * z[1] + (1 - a - b) * z[2];
-}
-
-void tissue_sheet_normal(const tissue_domain *d, double x, double n[3])
-{
-    const double h = 0.5;
-    double slope = (tissue_sheet_height(d, x + h) - tissue_sheet_height(d, x - h)) / (2 * h);
-    vec_axpy(d->frame.up, -slope, d->frame.left, n);
-    vec_normalize(n);
-}
-
 int tissue_domain_label(const double p[3], void *domain)
 {
     const tissue_domain *d = domain;
@@ -164,7 +145,7 @@ int tissue_domain_label(const double p[3], void *domain)
     if (local[1] >= d->coronal || local[2] <= d->neck || local[2] >= d->brow) return 0;
     if (sdf_grid_at(&d->skin, p) >= 0 || sdf_grid_at(&d->wrap, p) <= 0) return 0;
     if (sdf_grid_at(&d->span, p) <= -d->params->collar_mm) return 0;
-    return local[2] > tissue_sheet_height(d, local[0]) ? REGION_UPPER : REGION_LOWER;
+    return local[2] > lip_sheet_height(&d->lips, local[0]) ? REGION_UPPER : REGION_LOWER;
 }
 
 double tissue_domain_size(const double p[3], int region, void *domain)

@@ -10,7 +10,7 @@ typedef struct tissue_domain {
     head_frame frame;
     sdf_grid skin, wrap, span; /* skin; wrap tight around the bones; wide wrap that spans the skeleton's holes */
     double coronal, neck, brow;     /* cut planes in the head frame, mm */
-    double lip_x[3], lip_z[3];      /* lip line right corner, stomion, left corner: left and up coordinates */
+    lip_sheet lips;
     double attract[MAX_ATTRACTORS][2][3]; /* segments along which elements are finest */
     int attractors;
     double low[3], high[3];         /* box of the domain, LPS mm */
@@ -20,7 +20,4 @@ bool tissue_domain_make(const tissue_input *in, const tissue_params *p, tissue_d
 void tissue_domain_free(tissue_domain *d);
 int tissue_domain_label(const double p[3], void *domain);
 double tissue_domain_size(const double p[3], int region, void *domain);
-/* Height of the lip sheet at left coordinate x (head frame), and its unit normal (upwards, LPS). */
-double tissue_sheet_height(const tissue_domain *d, double x);
-void tissue_sheet_normal(const tissue_domain *d, double x, double n[3]);
 node_side tissue_domain_side(const tissue_domain *d, const double p[3]);

@@ -13,7 +13,7 @@ static bool in_fissure(const tissue_domain *d, const tetmesh *m, int32_t t, int 
     for (int a = 0; a < 3; a++)
         vec_axpy(centre, 1.0 / 3, m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + (size_t)tet_face[k][a]], centre);
     head_frame_to_local(&d->frame, centre, local);
-    return local[0] > d->lip_x[0] + corner_margin_mm && local[0] < d->lip_x[2] - corner_margin_mm;
+    return local[0] > d->lips.x[0] + corner_margin_mm && local[0] < d->lips.x[2] - corner_margin_mm;
 }
 
 static int32_t root_of(int32_t *parent, int32_t i)
