@@ -1,5 +1,6 @@
 #include "geometry/tissue.h"
 #include "geometry/vec.h"
+#include <stddef.h>
 
 double lip_sheet_height(const lip_sheet *s, double x)
 {
