@@ -68,8 +68,9 @@ bool pack_read(const char *path, pack_file *out, err *e)
     }
     while (ok && ftell(f) < end) {
         pack_entry en = {0};
-        ok = fread(en.name, 1, sizeof en.name, f) == sizeof en.name && fread(&en.size, 1, sizeof en.size, f) == sizeof en.size &&
-             !en.name[sizeof en.name - 1] && en.size <= (uint64_t)(end - ftell(f));
+        ok = fread(en.name, 1, sizeof en.name, f) == sizeof en.name &&
+             fread(&en.size, 1, sizeof en.size, f) == sizeof en.size && !en.name[sizeof en.name - 1] &&
+             en.size <= (uint64_t)(end - ftell(f));
         if (!ok) break;
         en.bytes = mem_alloc(en.size, 1);
         ok = fread(en.bytes, 1, en.size, f) == en.size;

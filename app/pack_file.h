@@ -1,5 +1,5 @@
-/* pack_file: named arrays in one file, for what is prepared once and reused on the same machine (native byte order).
- * A checksum at the end tells a torn or edited file from a whole one. */
+/* pack_file: named arrays in one file, for what is prepared once and reused on the same machine (native byte
+ * order). A checksum at the end tells a torn or edited file from a whole one. */
 #pragma once
 #include "geometry/err.h"
 #include <stddef.h>
@@ -20,8 +20,8 @@ typedef struct pack_file {
 
 /* Copies the bytes in. */
 void pack_put(pack_file *p, const char *name, const void *bytes, size_t size);
-/* A copy of the array of that name, count = size / element; the caller frees. NULL where the name is missing or its
- * size is not a multiple of `element`. */
+/* A copy of the array of that name, count = size / element; the caller frees. NULL where the name is missing
+ * or its size is not a multiple of `element`. */
 void *pack_take(const pack_file *p, const char *name, size_t element, size_t *count);
 void pack_free(pack_file *p);
 

@@ -1,0 +1,104 @@
+/* The fields of case.json, one line each. A new parameter of a stage is one more line here; its default is
+ * the one of its own params struct, through case_file_default(). */
+#include "app/case_file.h"
+#include <math.h>
+#include <string.h>
+
+#define SURFACE(word, id, needed, help_)                                                                     \
+    {                                                                                                        \
+        .name = "surfaces." word, .kind = FIELD_FILE, .offset = offsetof(case_file, surface[id]),            \
+        .required = needed, .help = help_                                                                    \
+    }
+#define MATERIAL(member, unit_, low_, high_, help_)                                                          \
+    {                                                                                                        \
+        .name = "tissue." #member, .kind = FIELD_NUMBER, .offset = offsetof(case_file, material.member),     \
+        .unit = unit_, low_, high_, .help = help_                                                            \
+    }
+#define CASE(member, unit_, low_, high_, help_) NUMBER(case_file, member, unit_, low_, high_, help_)
+
+static const field rows[] = {
+    {.name = "gnathos",
+     .kind = FIELD_VERSION,
+     .offset = offsetof(case_file, version),
+     .required = true,
+     .help = "Version of the format."},
+    {.name = "name",
+     .kind = FIELD_TEXT,
+     .offset = offsetof(case_file, name),
+     .help = "Shown in results; the folder's name where absent."},
+    {.name = "units",
+     .kind = FIELD_WORD,
+     .offset = offsetof(case_file, units),
+     .words = "mm",
+     .help = "Length unit of all files of the case."},
+    {.name = "frame",
+     .kind = FIELD_WORD,
+     .offset = offsetof(case_file, frame),
+     .words = "LPS RAS",
+     .help = "Axes of meshes that carry no SPACE tag: LPS is +x left, +y posterior, +z up; RAS meshes are "
+             "turned."},
+    SURFACE("skin", CASE_SKIN, true,
+            "Skin of the head (.ply .stl .obj .off .gltf .glb); may be open at the neck."),
+    SURFACE("skull", CASE_SKULL, true, "Skull with the maxilla, without the mandible."),
+    SURFACE("mandible", CASE_MANDIBLE, true, "Mandible."),
+    SURFACE("upper_teeth", CASE_UPPER_TEETH, false, "Upper teeth where they are not part of the skull."),
+    SURFACE("lower_teeth", CASE_LOWER_TEETH, false, "Lower teeth where they are not part of the mandible."),
+    {.name = "landmarks",
+     .kind = FIELD_FILE,
+     .offset = offsetof(case_file, landmarks),
+     .required = true,
+     .help = "Named points (.mrk.json or .fcsv of 3D Slicer); `gnathos help landmarks` lists the labels."},
+    {.name = "planes",
+     .kind = FIELD_FILE,
+     .offset = offsetof(case_file, planes),
+     .help = "Planes of osteotomies of your own (.mrk.json of 3D Slicer)."},
+    {.name = "osteotomies",
+     .kind = FIELD_OTHER,
+     .words = "a list of le_fort_1, bsso, genioplasty, or of objects {\"segment\", \"plane\"}",
+     .help = "The cuts of this patient; all three where absent. An object names a plane of your own in place "
+             "of the default "
+             "cut of the maxilla, proximal_left, proximal_right or chin."},
+    CASE(cuts.kerf_mm, "mm", FROM(0.1), TO(3), "Width of the saw cut."),
+    CASE(cuts.le_fort_apex_clearance_mm, "mm", FROM(0), TO(20),
+         "Height of the Le Fort I cut above the longest upper root."),
+    CASE(tissue.element_mm, "mm", FROM(0.5), TO(20), "Edge length of tetrahedra at lips, nose and chin."),
+    CASE(tissue.coarse_mm, "mm", FROM(0.5), TO(40), "Largest edge length, far from them."),
+    CASE(tissue.growth, "mm/mm", FROM(0), TO(2), "Growth of the edge length per mm of distance."),
+    CASE(tissue.hole_mm, "mm", FROM(1), TO(60), "Openings of the skeleton narrower than this are spanned."),
+    CASE(tissue.collar_mm, "mm", FROM(0), TO(30), "Tissue kept below the spanned openings."),
+    CASE(tissue.detail_mm, "mm", FROM(0), TO(10), "Gaps between bones narrower than this are filled."),
+    CASE(tissue.touch_mm, "mm", FROM(0), TO(10), "Tissue nodes nearer to bone than this are moved onto it."),
+    CASE(tissue.cut_band_mm, "mm", FROM(0), TO(20),
+         "Half width of the strip along a saw cut where tissue hangs loose."),
+    CASE(tissue.vestibule_upper_mm, "mm", FROM(0), TO(40),
+         "Depth of the upper vestibule from the incisal edge."),
+    CASE(tissue.vestibule_lower_mm, "mm", FROM(0), TO(40),
+         "Depth of the lower vestibule from the incisal edge."),
+    CASE(tissue.coronal_mm, "mm", FROM(-60), TO(100), "The rear end of the tissue, behind the porions."),
+    CASE(tissue.neck_mm, "mm", FROM(-20), TO(100), "The lower end of the tissue, below menton."),
+    CASE(tissue.brow_mm, "mm", FROM(-20), TO(100), "The upper end of the tissue, above nasion."),
+    CASE(tissue.far_mm, "mm", FROM(0), TO(100),
+         "Cut faces of the tissue farther than this from moving bone are fixed."),
+    MATERIAL(young_kpa, "kPa", ABOVE(0), TO(100000),
+             "Stiffness; it does not change the shape while only bones move it."),
+    MATERIAL(poisson, NULL, FROM(0), TO(0.499),
+             "Poisson's ratio; linear tetrahedra stiffen falsely near 0.5."),
+#define X(id, field, low_, high_, source)                                                                    \
+    {.name = "bounds." #field,                                                                               \
+     .kind = FIELD_RANGE,                                                                                    \
+     .offset = offsetof(case_file, bounds[BOUND_##id]),                                                      \
+     FROM(-100),                                                                                             \
+     TO(100),                                                                                                \
+     .help = source "."},
+    BOUNDS(X)
+#undef X
+};
+
+const field_table *case_fields(void)
+{
+    static case_file defaults;
+    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0],
+                                      &defaults};
+    defaults = case_file_default();
+    return &table;
+}

@@ -1,0 +1,25 @@
+/* landmark_needs: which landmarks are known, on which surface they lie, and what is lost without them. */
+#pragma once
+#include "app/case_file.h"
+
+typedef enum landmark_need {
+    NEED_ALWAYS,    /* no frame, no tissue without it */
+    NEED_LE_FORT_1, /* for the cut, if the case has it */
+    NEED_BSSO,
+    NEED_GENIOPLASTY,
+    NEED_OPTIONAL /* something is lost */
+} landmark_need;
+
+typedef struct landmark_row {
+    const char *label;
+    landmark_need need;
+    const char *instead; /* labels, separated by spaces, that together do as well; NULL: none */
+    case_surface on;     /* the surface it lies on; CASE_SURFACE_COUNT: inside the head */
+    const char *help;    /* what it is */
+    const char *lost;    /* what is lost without it; NULL for required ones */
+} landmark_row;
+
+extern const landmark_row landmark_rows[];
+extern const int landmark_row_count;
+
+bool landmark_is_needed(const landmark_row *row, const case_file *c);

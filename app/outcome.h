@@ -1,0 +1,26 @@
+/* outcome: what a prediction leaves on disk, with the evidence for it. */
+#pragma once
+#include "app/carried.h"
+#include "app/output_dir.h"
+#include "sim/newton.h"
+
+typedef struct outcome {
+    const case_file *patient;
+    const plan_file *plan;
+    const plan_moves *moves;
+    const prepared *prepared;
+    const equilibrium *solve;
+    const double *u;     /* [3*nodes] displacement of the tissue, mm */
+    const surface *skin; /* predicted */
+    const carried_landmarks *points;
+    double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
+} outcome;
+
+/* outcome.json as a new object: all numbers that are shown to a user. */
+json_t *outcome_json(const outcome *o);
+/* Meshes, moves and landmarks: skin_before.ply, skin_after.ply and .stl, segment_NAME.ply and .stl where the
+ * plan puts them, NAME.tfm for each that moves, tissue.vtu with `displacement`, landmarks_planned.mrk.json.
+ */
+bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e) MUST_CHECK;
+/* The table of millimetres and the sentence on how far to trust it. */
+void outcome_print(const outcome *o);

@@ -1,0 +1,22 @@
+/* plan_moves: from the words of a plan to rigid moves, and how they stand to the bounds. */
+#pragma once
+#include "app/plan_file.h"
+
+typedef struct plan_moves {
+    rigid move[SEGMENT_COUNT];   /* of each segment, LPS mm; the chin's includes the distal segment's */
+    double measure[BOUND_COUNT]; /* in the units of the bound */
+} plan_moves;
+
+/* Advance and impaction run along the axes of the head's Frankfort frame, as do the axes of pitch (positive:
+ * front down), yaw (positive: front to the left) and roll (positive: left side down); roll is applied first,
+ * then pitch, then yaw, then the translation. translate_mm, matrices and .tfm files are in file axes (LPS). A
+ * rotation without a pivot turns about the segment's point: upper incisor, lower incisor, pogonion or
+ * condylion. The chin's own move is relative to the distal segment.
+ *
+ * A bound that is left is an error (ERR_INFEASIBLE) with its source, a warning if the plan has an override.
+ * Missing landmarks are errors. True if there is no error, and only then *out is written. */
+bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
+                     issue_list *issues) MUST_CHECK;
+/* Case, landmarks and plan in one call, for verbs that need no more than the first error. */
+bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan,
+                     plan_moves *out, err *e) MUST_CHECK;

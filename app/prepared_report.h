@@ -1,0 +1,12 @@
+/* prepared_report: repair, cuts and tissue mesh of a case in numbers. */
+#pragma once
+#include "app/anatomy.h"
+#include "geometry/tissue.h"
+#include <jansson.h>
+
+/* A new object. */
+json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s, double tissue_s);
+/* The part that the cuts alone give. */
+json_t *cuts_report(const cut_report *r);
+/* A table for people. */
+void prepared_report_print(const json_t *report);
