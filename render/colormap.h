@@ -20,6 +20,9 @@ const uint8_t *colormap_table(colormap map);
  * colormap_no_data. */
 void colormap_color(colormap map, double value, double low, double high, double rgb[3]);
 extern const double colormap_no_data[3]; /* a neutral grey that neither map holds */
+/* One channel between sRGB and linear light, 0..1. */
+double colormap_linear(double srgb);
+double colormap_encode(double linear);
 /* The smallest of 1, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is >= x; 1 for x <= 0 or not finite. */
 double colormap_nice_ceiling(double x);
 

@@ -27,7 +27,7 @@ typedef struct layer {
     const double *scalar;     /* [vertex_count], shown through map over [low, high]; may be NULL; NaN: no data */
     colormap map;
     double low, high;
-    double hide_below;        /* where scalar < hide_below the layer keeps rgb; -HUGE_VAL: nowhere */
+    double fade_end;          /* from low to here rgb passes into the map; <= low: the map everywhere */
     double opacity;           /* 1: opaque; below 1 only the front-most sheet of the layer is seen */
     rigid move;
 } layer;

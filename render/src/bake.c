@@ -174,24 +174,20 @@ bool picture_bake(studio *s, const layer *layers, int layer_count, int direction
     g->DepthFunc(GL_LESS);
     g->DepthMask(GL_TRUE);
     g->UseProgram(s->ribbon);
-    GLint to_clip = g->GetUniformLocation(s->ribbon, "to_clip");
+    GLint to_clip = g->GetUniformLocation(s->ribbon, "to_clip"), moving = g->GetUniformLocation(s->ribbon, "move");
     for (int i = 0; ok && i < directions; i++) {
         sphere_direction(i, directions, j.toward);
         double helper[3] = {fabs(j.toward[0]) < 0.7, fabs(j.toward[0]) >= 0.7, 0};
         vec_cross(helper, j.toward, j.right);
         vec_normalize(j.right);
         vec_cross(j.toward, j.right, j.up);
-        float light[16], move[16], both[16];
+        float light[16], move[16];
         light_matrix(&j, light);
+        g->UniformMatrix4fv(to_clip, 1, GL_FALSE, light);
         g->Clear(GL_DEPTH_BUFFER_BIT);
         for (int l = 0; l < layer_count; l++) {
             move_matrix(&layers[l].move, move);
-            for (int c = 0; c < 4; c++)
-                for (int r = 0; r < 4; r++) {
-                    both[4 * c + r] = 0;
-                    for (int k = 0; k < 4; k++) both[4 * c + r] += light[4 * k + r] * move[4 * c + k];
-                }
-            g->UniformMatrix4fv(to_clip, 1, GL_FALSE, both);
+            g->UniformMatrix4fv(moving, 1, GL_FALSE, move);
             g->BindVertexArray(layers[l].shape->array);
             g->DrawElements(GL_TRIANGLES, 3 * layers[l].shape->triangle_count, GL_UNSIGNED_INT, NULL);
         }

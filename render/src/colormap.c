@@ -19,8 +19,11 @@ static void viridis(double t, double rgb[3])
     }
 }
 
-static double to_linear(double c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
-static double to_srgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055; }
+double colormap_linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4); }
+double colormap_encode(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
 
 static const double white_d65[3] = {0.95047, 1.0, 1.08883};
 
@@ -32,7 +35,7 @@ static void rgb_to_lab(const double rgb[3], double lab[3])
     double f[3];
     for (int r = 0; r < 3; r++) {
         double x = 0;
-        for (int k = 0; k < 3; k++) x += m[r][k] * to_linear(rgb[k]);
+        for (int k = 0; k < 3; k++) x += m[r][k] * colormap_linear(rgb[k]);
         x /= white_d65[r];
         f[r] = x > 0.008856 ? cbrt(x) : 7.787 * x + 16.0 / 116;
     }
@@ -51,7 +54,7 @@ static void lab_to_rgb(const double lab[3], double rgb[3])
         xyz[k] = white_d65[k] * (f[k] > 0.206893 ? f[k] * f[k] * f[k] : (f[k] - 16.0 / 116) / 7.787);
     for (int r = 0; r < 3; r++) {
         double x = m[r][0] * xyz[0] + m[r][1] * xyz[1] + m[r][2] * xyz[2];
-        rgb[r] = to_srgb(x < 0 ? 0 : x);
+        rgb[r] = colormap_encode(x < 0 ? 0 : x);
     }
 }
 

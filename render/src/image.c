@@ -39,6 +39,18 @@ void image_paste(image *to, const image *from, int x, int y)
             memcpy(image_pixel(to, x + first, row + y), image_pixel(from, first, row), 4 * (size_t)(last - first));
 }
 
+image image_half(const image *im)
+{
+    image half = image_new(im->width / 2, im->height / 2);
+    for (int y = 0; y < half.height; y++)
+        for (int x = 0; x < half.width; x++) {
+            const uint8_t *a = image_pixel(im, 2 * x, 2 * y), *b = image_pixel(im, 2 * x, 2 * y + 1);
+            uint8_t *to = image_pixel(&half, x, y);
+            for (int c = 0; c < 4; c++) to[c] = (uint8_t)((a[c] + a[c + 4] + b[c] + b[c + 4] + 2) / 4);
+        }
+    return half;
+}
+
 int64_t image_difference(const image *a, const image *b, int tolerance)
 {
     if (a->width != b->width || a->height != b->height) return -1;

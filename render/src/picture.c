@@ -26,7 +26,7 @@ void material_color(material m, double rgb[3]) { vec_copy(looks[m].rgb, rgb); }
 
 layer layer_default(model *shape, material kind)
 {
-    layer l = {.shape = shape, .kind = kind, .high = 1, .hide_below = -HUGE_VAL, .opacity = 1, .move = rigid_identity()};
+    layer l = {.shape = shape, .kind = kind, .high = 1, .opacity = 1, .move = rigid_identity()};
     material_color(kind, l.rgb);
     return l;
 }
@@ -87,12 +87,10 @@ static void clip_matrix(const camera *c, int width, int height, double toward_mm
         for (int k = 0; k < 4; k++) m[4 * k + r] = (float)row[r][k];
 }
 
-static double linear(double c) { return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4); }
-
 static void uniform_rgb(const gl *g, GLuint program, const char *name, const double srgb[3], bool to_linear)
 {
     float c[3];
-    for (int k = 0; k < 3; k++) c[k] = (float)(to_linear ? linear(srgb[k]) : srgb[k]);
+    for (int k = 0; k < 3; k++) c[k] = (float)(to_linear ? colormap_linear(srgb[k]) : srgb[k]);
     g->Uniform3fv(g->GetUniformLocation(program, name), 1, c);
 }
 
@@ -119,7 +117,7 @@ static GLuint load_map(const gl *g, colormap map)
     /* Linear light, so that colours mix with the light like any other albedo. */
     const uint8_t *table = colormap_table(map);
     float texel[3 * COLORMAP_SIZE];
-    for (int i = 0; i < 3 * COLORMAP_SIZE; i++) texel[i] = (float)linear(table[i] / 255.0);
+    for (int i = 0; i < 3 * COLORMAP_SIZE; i++) texel[i] = (float)colormap_linear(table[i] / 255.0);
     GLuint texture;
     g->GenTextures(1, &texture);
     g->BindTexture(GL_TEXTURE_2D, texture);
@@ -139,20 +137,17 @@ static loaded load_layer(const gl *g, const layer *l)
     if (l->vertex_rgb) {
         for (int32_t v = 0; v < m->vertex_count; v++)
             for (size_t k = 0; k < 3; k++)
-                values[3 * (size_t)v + k] = (float)linear(l->vertex_rgb[3 * (size_t)m->source[v] + k] / 255.0);
+                values[3 * (size_t)v + k] = (float)colormap_linear(l->vertex_rgb[3 * (size_t)m->source[v] + k] / 255.0);
         out.colour_buffer = load_floats(g, values, 3 * (size_t)m->vertex_count);
     }
     if (l->scalar) {
         for (int32_t v = 0; v < m->vertex_count; v++) {
             double x = l->scalar[m->source[v]];
             bool known = !isnan(x);
-            values[3 * (size_t)v] = known ? (float)((x - l->low) / (l->high - l->low)) : 0;
-            values[3 * (size_t)v + 1] = known;
-            /* distance above the threshold in parts of the range; its zero is the border of the map */
-            values[3 * (size_t)v + 2] =
-                known && isfinite(l->hide_below) ? (float)((x - l->hide_below) / (l->high - l->low)) : 1;
+            values[2 * (size_t)v] = known ? (float)((x - l->low) / (l->high - l->low)) : 0;
+            values[2 * (size_t)v + 1] = known;
         }
-        out.value_buffer = load_floats(g, values, 3 * (size_t)m->vertex_count);
+        out.value_buffer = load_floats(g, values, 2 * (size_t)m->vertex_count);
         out.map = load_map(g, l->map);
     }
     free(values);
@@ -165,30 +160,46 @@ static void unload_layer(const gl *g, loaded *x)
     g->DeleteTextures(1, &x->map);
 }
 
-static void set_attribute(const gl *g, GLuint place, GLuint buffer, double x, double y, double z)
+static void set_attribute(const gl *g, GLuint place, int size, GLuint buffer, double x, double y, double z)
 {
     if (buffer) {
         g->BindBuffer(GL_ARRAY_BUFFER, buffer);
         g->EnableVertexAttribArray(place);
-        g->VertexAttribPointer(place, 3, GL_FLOAT, GL_FALSE, 0, NULL);
+        g->VertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, 0, NULL);
     } else {
         g->DisableVertexAttribArray(place);
         g->VertexAttrib3f(place, (float)x, (float)y, (float)z);
     }
 }
 
+static void set_move(const gl *g, GLuint program, const rigid *a)
+{
+    float move[16] = {0};
+    for (int col = 0; col < 3; col++) {
+        for (int r = 0; r < 3; r++) move[4 * col + r] = (float)a->r[3 * r + col];
+        move[12 + col] = (float)a->t[col];
+    }
+    move[15] = 1;
+    g->UniformMatrix4fv(g->GetUniformLocation(program, "move"), 1, GL_FALSE, move);
+}
+
+static void draw_depth(studio *s, const layer *l)
+{
+    const gl *g = &s->gl;
+    g->UseProgram(s->ribbon);
+    set_move(g, s->ribbon, &l->move);
+    g->BindVertexArray(l->shape->array);
+    g->DrawElements(GL_TRIANGLES, 3 * l->shape->triangle_count, GL_UNSIGNED_INT, NULL);
+}
+
 static void draw_layer(studio *s, const layer *l, const loaded *x, const camera *c)
 {
     const gl *g = &s->gl;
     const look *k = looks + l->kind;
-    float move[16] = {0}, light[3 * HARMONICS];
-    for (int col = 0; col < 3; col++) {
-        for (int r = 0; r < 3; r++) move[4 * col + r] = (float)l->move.r[3 * r + col];
-        move[12 + col] = (float)l->move.t[col];
-    }
-    move[15] = 1;
+    float light[3 * HARMONICS];
     lamps_project(c, &l->move, light);
-    g->UniformMatrix4fv(g->GetUniformLocation(s->shade, "move"), 1, GL_FALSE, move);
+    g->UseProgram(s->shade);
+    set_move(g, s->shade, &l->move);
     g->Uniform3fv(g->GetUniformLocation(s->shade, "light"), HARMONICS, light);
     g->Uniform3fv(g->GetUniformLocation(s->shade, "scatter"), 1, k->scatter);
     uniform_float(g, s->shade, "gloss", (double)k->gloss);
@@ -196,18 +207,21 @@ static void draw_layer(studio *s, const layer *l, const loaded *x, const camera 
     uniform_float(g, s->shade, "sheen", (double)k->sheen);
     uniform_float(g, s->shade, "opacity", l->opacity);
     uniform_float(g, s->shade, "use_map", l->scalar ? 1 : 0);
+    uniform_float(g, s->shade, "fade", l->scalar ? (l->fade_end - l->low) / (l->high - l->low) : 0);
     g->BindTexture(GL_TEXTURE_2D, x->map);
     g->BindVertexArray(l->shape->array);
-    set_attribute(g, 8, x->colour_buffer, linear(l->rgb[0]), linear(l->rgb[1]), linear(l->rgb[2]));
-    set_attribute(g, 9, x->value_buffer, 0, 1, 1);
+    set_attribute(g, 8, 3, x->colour_buffer, colormap_linear(l->rgb[0]), colormap_linear(l->rgb[1]), colormap_linear(l->rgb[2]));
+    set_attribute(g, 9, 2, x->value_buffer, 0, 1, 0);
     g->DrawElements(GL_TRIANGLES, 3 * l->shape->triangle_count, GL_UNSIGNED_INT, NULL);
 }
 
 static void color_writes(const gl *g, bool on) { g->ColorMask(on, on, on, on); }
 
-static void draw_layers(studio *s, const picture *p, const loaded *x)
+static void draw_layers(studio *s, const picture *p, const loaded *x, const float clip[16])
 {
     const gl *g = &s->gl;
+    g->UseProgram(s->ribbon);
+    g->UniformMatrix4fv(g->GetUniformLocation(s->ribbon, "to_clip"), 1, GL_FALSE, clip);
     int translucent = 0;
     g->Disable(GL_BLEND);
     g->DepthFunc(GL_LESS);
@@ -219,9 +233,9 @@ static void draw_layers(studio *s, const picture *p, const loaded *x)
         if (translucent++) { /* forget the depth of the translucent layer before */
             g->Clear(GL_DEPTH_BUFFER_BIT);
             for (int k = 0; k < p->layer_count; k++)
-                if (p->layers[k].opacity >= 1) draw_layer(s, p->layers + k, x + k, &p->view);
+                if (p->layers[k].opacity >= 1) draw_depth(s, p->layers + k);
         }
-        draw_layer(s, p->layers + i, x + i, &p->view);
+        draw_depth(s, p->layers + i);
         color_writes(g, true);
         g->Enable(GL_BLEND);
         g->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -299,7 +313,9 @@ static void draw_extras(studio *s, const picture *p, int width, int height, bool
         if (k->on_top != on_top || pieces < 1) continue;
         float clip[16], *points = ribbon(k, &p->view, pieces), *joint = NEW_ARRAY(float, 3 * (size_t)k->count);
         clip_matrix(&p->view, width, height, stroke_lift_mm, clip);
+        rigid stay = rigid_identity();
         g->UseProgram(s->ribbon);
+        set_move(g, s->ribbon, &stay);
         g->UniformMatrix4fv(g->GetUniformLocation(s->ribbon, "to_clip"), 1, GL_FALSE, clip);
         uniform_rgb(g, s->ribbon, "colour", k->rgb, true);
         draw_loose(g, GL_TRIANGLES, points, 6 * pieces);
@@ -459,8 +475,7 @@ bool picture_render(studio *s, const picture *p, const picture_style *style, ima
         g->DepthFunc(GL_LESS);
         g->Disable(GL_BLEND);
         draw_extras(s, p, w, h, false);
-        g->UseProgram(s->shade);
-        draw_layers(s, p, x);
+        draw_layers(s, p, x, clip);
         if (mark_seen) look_for_marks(g, p, &c, w, h, mark_seen);
         g->BindFramebuffer(GL_FRAMEBUFFER, c.many);
         draw_extras(s, p, w, h, true);

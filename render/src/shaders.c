@@ -13,11 +13,12 @@ const char *const shader_shade_vertex =
     "layout(location=6) in vec3 soft1;\n"
     "layout(location=7) in vec3 soft2;\n"
     "layout(location=8) in vec3 colour;\n"
-    "layout(location=9) in vec3 value;\n" /* scalar in map units, 1 if there is data, 1 if shown */
+    "layout(location=9) in vec2 value;\n" /* scalar in parts of the range, 1 if there is data */
     "uniform mat4 move, to_clip;\n"
     "uniform vec3 light[9];\n"
     "uniform vec3 scatter;\n"
-    "out vec3 at, facing, lit, base, shown;\n"
+    "out vec3 at, facing, lit, base;\n"
+    "out vec2 shown;\n"
     "out float open_sky;\n"
     "invariant gl_Position;\n"
     "vec3 gather(vec3 a, vec3 b, vec3 c) {\n"
@@ -37,13 +38,14 @@ const char *const shader_shade_vertex =
 
 const char *const shader_shade_fragment =
     "#version 330 core\n"
-    "in vec3 at, facing, lit, base, shown;\n"
+    "in vec3 at, facing, lit, base;\n"
+    "in vec2 shown;\n"
     "in float open_sky;\n"
     "uniform vec3 eye, back;\n"       /* eye only in perspective */
     "uniform float perspective;\n"
     "uniform vec3 key_direction, fill_direction;\n"
     "uniform float gloss, shine, sheen, opacity;\n"
-    "uniform float use_map;\n"
+    "uniform float use_map, fade;\n"
     "uniform sampler2D map;\n"
     "uniform vec3 no_data;\n"
     "out vec4 result;\n"
@@ -58,9 +60,8 @@ const char *const shader_shade_fragment =
     "    vec3 albedo = base;\n"
     "    if (use_map > 0.5) {\n"
     "        vec3 mapped = texture(map, vec2((clamp(shown.x, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;\n"
-    "        mapped = shown.y > 0.999 ? mapped : no_data;\n"
-    "        float edge = max(fwidth(shown.z), 1e-6);\n"
-    "        albedo = mix(base, mapped, shown.y > 0.999 ? smoothstep(-edge, edge, shown.z) : 1.0);\n"
+    "        float share = fade > 0.0 ? clamp(shown.x / fade, 0.0, 1.0) : 1.0;\n"
+    "        albedo = shown.y > 0.999 ? mix(base, mapped, share) : no_data;\n"
     "    }\n"
     "    vec3 c;\n"
     "    if (gl_FrontFacing) {\n"
@@ -79,7 +80,7 @@ const char *const shader_shade_fragment =
     "    float a = opacity;\n"
     "    if (opacity < 1.0) {\n" /* clearer where it faces the viewer, denser towards its outline */
     "        float nv = abs(dot(n, v));\n"
-    "        a = opacity + (1.0 - opacity) * 0.75 * pow(1.0 - nv, 2.5);\n"
+    "        a = opacity + (1.0 - opacity) * 0.9 * pow(1.0 - nv, 2.0);\n"
     "    }\n"
     "    result = vec4(c * a, a);\n"
     "}\n";
@@ -105,11 +106,16 @@ const char *const shader_ball_fragment =
     "    result = vec4(colour * mix(light, 1.0, flat_shade), 1.0);\n"
     "}\n";
 
+/* Also draws depth alone: position by the same expressions as above, so that depths are equal to the bit. */
 const char *const shader_ribbon_vertex =
     "#version 330 core\n"
     "layout(location=0) in vec3 position;\n"
-    "uniform mat4 to_clip;\n"
-    "void main() { gl_Position = to_clip * vec4(position, 1.0); }\n";
+    "uniform mat4 move, to_clip;\n"
+    "invariant gl_Position;\n"
+    "void main() {\n"
+    "    vec4 w = move * vec4(position, 1.0);\n"
+    "    gl_Position = to_clip * w;\n"
+    "}\n";
 
 const char *const shader_ribbon_fragment =
     "#version 330 core\n"
