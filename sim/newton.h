@@ -53,7 +53,7 @@ typedef struct solve_params {
     int max_halvings;           /* failed loads that are tried again at half the step, in all; 0: none */
     int max_iterations;         /* at one load */
     int max_step_cuts;          /* halvings within one line search */
-    double rel_tol;             /* of the residual with the bones moved and the free tissue at rest */
+    double rel_tol;             /* of the residual with the bones moved and the free tissue carried rigidly */
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;         /* longest move of an unknown in one iteration */
     predictor predictor;
@@ -86,7 +86,7 @@ typedef struct equilibrium {
     int iterations, factorisations, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
-    double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
+    double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the solver */
     double imbalance;            /* |sum of these| over the sum of their node forces' norms */
     double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */
     int64_t unknown_count, matrix_entries, factor_entries;
@@ -100,11 +100,11 @@ bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *p
 void equilibrium_free(equilibrium *q);
 
 /* The same in two parts: everything that does not depend on the motion is kept for the next plan. mesh and attach are
- * borrowed until tissue_destroy; motion and start_xyz are not looked at. */
-typedef struct tissue tissue;
-bool tissue_create(const equilibrium_problem *problem, int blas_threads, tissue **out, err *e) MUST_CHECK;
-void tissue_destroy(tissue **t);
-bool tissue_solve(tissue *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+ * borrowed until solver_destroy; motion and start_xyz are not looked at. */
+typedef struct solver solver;
+bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e) MUST_CHECK;
+void solver_destroy(solver **t);
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
                   equilibrium *out, err *e) MUST_CHECK;
 
 #ifdef __cplusplus

@@ -18,7 +18,7 @@ static double dot(const double *a, const double *b, int64_t n)
 static int64_t unknowns(const descent *d) { return d->t->b.unknown_count; }
 static size_t coordinates(const descent *d) { return 3 * (size_t)d->t->b.node_count; }
 
-void descent_make(descent *d, tissue *t, const solve_params *params, equilibrium *out)
+void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out)
 {
     size_t n = (size_t)t->b.unknown_count, c = 3 * (size_t)t->b.node_count;
     *d = (descent){.t = t,
@@ -207,7 +207,7 @@ static double line_search(descent *d)
 static bool worth_reusing(const descent *d)
 {
     if (!d->has_factor || !d->params->reuse_factor) return false;
-    if (d->since_factor < 3) return true;
+    if (d->since_factor < 2) return true;
     linear_stats s = linear_measure(d->t->l);
     /* nanoseconds on one core: 0.07 per flop of a factorisation; a step is a solve (1.5 per entry) and an energy
      * with forces (500 per tet) */
@@ -217,19 +217,26 @@ static bool worth_reusing(const descent *d)
     return rate > 0 && log(d->residual / d->tolerance) / rate < factor / step + 4;
 }
 
-/* Residual of the reference: prescribed nodes moved, free ones at rest. */
+/* Residual of the reference: prescribed nodes moved, free ones carried by the guide only. It sees no common rigid
+ * motion, so a turned head is held to the same tolerance. */
 static double reference_residual(descent *d)
 {
-    tissue *t = d->t;
+    solver *t = d->t;
     int64_t n = unknowns(d);
     for (int32_t v = 0; v < t->b.node_count; v++) {
-        bool at_rest = t->attach->kind[v] == NODE_FREE;
-        vec_copy((at_rest ? t->mesh->xyz : t->b.origin) + 3 * (size_t)v, d->x_new + 3 * (size_t)v);
+        double *p = d->x_new + 3 * (size_t)v;
+        if (t->attach->kind[v] == NODE_FREE) rigid_apply(&t->b.guide, t->mesh->xyz + 3 * (size_t)v, p);
+        else vec_copy(t->b.origin + 3 * (size_t)v, p);
     }
     if (isfinite(evaluate(d, d->x_new, d->force_new, d->g_new))) return sqrt(dot(d->g_new, d->g_new, n));
     /* no energy there (a model that forbids inversion): the linear response instead */
-    assembly_stiffness(&t->a, t->mesh->xyz, PROJECTION_NONE);
-    for (size_t i = 0; i < coordinates(d); i++) d->x_new[i] -= t->mesh->xyz[i];
+    double *carried = NEW_ARRAY(double, coordinates(d));
+    for (size_t i = 0; i < coordinates(d); i += 3) {
+        rigid_apply(&t->b.guide, t->mesh->xyz + i, carried + i);
+        vec_sub(d->x_new + i, carried + i, d->x_new + i);
+    }
+    assembly_stiffness(&t->a, carried, PROJECTION_NONE);
+    free(carried);
     assembly_multiply(&t->a, d->x_new, d->force_new);
     boundary_reduce(&t->b, d->force_new, d->g_new);
     return sqrt(dot(d->g_new, d->g_new, n));
@@ -238,7 +245,7 @@ static double reference_residual(descent *d)
 /* Adds to z the linear response, about x_start, to carrying the prescribed nodes from x_start to x. */
 static bool predict(descent *d, const double *x_start, double *seconds, bool *ok, err *e)
 {
-    tissue *t = d->t;
+    solver *t = d->t;
     int64_t n = unknowns(d);
     hessian_kind kind = HESSIAN_TRUE;
     if (!isfinite(evaluate(d, x_start, d->force_new, d->g_new))) {
@@ -263,7 +270,7 @@ static bool predict(descent *d, const double *x_start, double *seconds, bool *ok
 
 bool descent_run(descent *d, double load, double rel_tol, const double *x_start, solve_outcome *outcome, err *e)
 {
-    tissue *t = d->t;
+    solver *t = d->t;
     d->load = load;
     d->has_factor = false;
     d->pair_count = 0;

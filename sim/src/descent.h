@@ -5,7 +5,7 @@
 
 enum { PAIR_LIMIT = 16 }; /* steps remembered between factorisations */
 
-struct tissue {
+struct solver {
     const tetmesh *mesh;
     const attach_map *attach;
     boundary b;
@@ -15,7 +15,7 @@ struct tissue {
 };
 
 typedef struct descent {
-    tissue *t;
+    solver *t;
     const solve_params *params;
     equilibrium *out; /* records and counts go here */
     double load;
@@ -32,7 +32,7 @@ typedef struct descent {
     double residual_at_factor;
 } descent;
 
-void descent_make(descent *d, tissue *t, const solve_params *params, equilibrium *out);
+void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out);
 void descent_free(descent *d);
 /* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they were).
  * False: refused. *outcome is never SOLVED unless the residual is below the tolerance; d->x is the last iterate. */

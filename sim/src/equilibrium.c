@@ -54,12 +54,12 @@ static bool check_params(const solve_params *p, err *e)
     return true;
 }
 
-bool tissue_create(const equilibrium_problem *problem, int blas_threads, tissue **out, err *e)
+bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e)
 {
     double begin = clock_s();
     if (blas_threads < 1) return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", blas_threads);
     elements el = {0};
-    tissue *t = NEW_ARRAY(tissue, 1);
+    solver *t = NEW_ARRAY(solver, 1);
     t->mesh = problem->mesh;
     t->attach = problem->attach;
     bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e) &&
@@ -68,7 +68,7 @@ bool tissue_create(const equilibrium_problem *problem, int blas_threads, tissue 
         ok = linear_create(t->b.unknown_count, t->a.column_start, t->a.row, blas_threads, &t->l, e);
     elements_free(&el);
     if (!ok) {
-        tissue_destroy(&t);
+        solver_destroy(&t);
         return false;
     }
     t->prepare_s = clock_s() - begin;
@@ -76,7 +76,7 @@ bool tissue_create(const equilibrium_problem *problem, int blas_threads, tissue 
     return true;
 }
 
-void tissue_destroy(tissue **t)
+void solver_destroy(solver **t)
 {
     if (!*t) return;
     linear_destroy(&(*t)->l);
@@ -87,7 +87,7 @@ void tissue_destroy(tissue **t)
 }
 
 /* What each bone does to the tissue, and whether it sums to nothing. */
-static void find_reactions(const tissue *t, const double *force, equilibrium *q)
+static void find_reactions(const solver *t, const double *force, equilibrium *q)
 {
     double sum[3] = {0}, norms = 0;
     for (int32_t v = 0; v < t->b.node_count; v++) {
@@ -106,14 +106,14 @@ static void find_reactions(const tissue *t, const double *force, equilibrium *q)
     q->imbalance = norms > 0 ? vec_norm(sum) / norms : 0;
 }
 
-static void move_bones(tissue *t, const rigid motion[SEGMENT_COUNT], double load)
+static void move_bones(solver *t, const rigid motion[SEGMENT_COUNT], double load)
 {
     rigid part[SEGMENT_COUNT];
     for (int s = 0; s < SEGMENT_COUNT; s++) part[s] = motion_part(&motion[s], load);
     boundary_move(&t->b, t->mesh, t->attach, part);
 }
 
-bool tissue_solve(tissue *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
                   equilibrium *out, err *e)
 {
     if (!check_params(params, e)) return false;
@@ -200,11 +200,11 @@ bool tissue_solve(tissue *t, const rigid motion[SEGMENT_COUNT], const double *st
 
 bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out, err *e)
 {
-    tissue *t = NULL;
-    if (!check_params(params, e) || !tissue_create(problem, params->blas_threads, &t, e)) return false;
-    bool ok = tissue_solve(t, problem->motion, problem->start_xyz, params, out, e);
+    solver *t = NULL;
+    if (!check_params(params, e) || !solver_create(problem, params->blas_threads, &t, e)) return false;
+    bool ok = solver_solve(t, problem->motion, problem->start_xyz, params, out, e);
     if (ok) out->total_s += out->prepare_s;
-    tissue_destroy(&t);
+    solver_destroy(&t);
     return ok;
 }
 
