@@ -65,7 +65,11 @@ void command_print_json(json_t *object, const char *verb_name);
 bool app_interrupted(void);
 
 int command_check(int argc, char **argv);
+int command_import(int argc, char **argv);
 int command_help(int argc, char **argv);
+int command_prepare(int argc, char **argv);
+int command_predict(int argc, char **argv);
+int command_render(int argc, char **argv);
 
 typedef struct verb {
     const char *name, *help;

@@ -14,7 +14,7 @@ static double number_at(const nifti_image *n, int64_t i)
     case DT_INT32: return ((const int32_t *)n->data)[i];
     case DT_FLOAT32: return (double)((const float *)n->data)[i];
     case DT_FLOAT64: return ((const double *)n->data)[i];
-    default: return NAN;
+    default: return (double)NAN; /* not reached: known_type */
     }
 }
 

@@ -21,12 +21,12 @@ typedef struct placed { /* matrix [3][4] row-major, from a node to the scene */
 
 static placed place_in(const placed *parent, const struct aiMatrix4x4 *a)
 {
-    const double child[12] = {a->a1, a->a2, a->a3, a->a4, a->b1, a->b2, a->b3, a->b4, a->c1, a->c2, a->c3, a->c4};
+    const ai_real child[12] = {a->a1, a->a2, a->a3, a->a4, a->b1, a->b2, a->b3, a->b4, a->c1, a->c2, a->c3, a->c4};
     placed out;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
             double sum = j == 3 ? parent->m[4 * i + 3] : 0;
-            for (int k = 0; k < 3; k++) sum += parent->m[4 * i + k] * child[4 * k + j];
+            for (int k = 0; k < 3; k++) sum += parent->m[4 * i + k] * (double)child[4 * k + j];
             out.m[4 * i + j] = sum;
         }
     return out;
@@ -45,7 +45,8 @@ static void append_mesh(const struct aiMesh *mesh, const placed *at, polygons *p
     int64_t base = p->point_count, polygon_count = p->polygon_count, corners = p->first[polygon_count];
     p->xyz = GROW_ARRAY(double, p->xyz, 3 * ((size_t)base + mesh->mNumVertices));
     for (unsigned v = 0; v < mesh->mNumVertices; v++) {
-        const double x[3] = {mesh->mVertices[v].x, mesh->mVertices[v].y, mesh->mVertices[v].z};
+        const struct aiVector3D *a = mesh->mVertices + v;
+        const double x[3] = {(double)a->x, (double)a->y, (double)a->z};
         for (int i = 0; i < 3; i++) {
             const double *row = at->m + 4 * i;
             p->xyz[3 * ((size_t)base + v) + i] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3];

@@ -47,8 +47,8 @@ static void nrrd_means_the_same_in_all_three_frames(void **state)
     (void)state;
     static const char *const frame[3] = {
         "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0,2)\nspace origin: (-10,-20,30)\n\n",
-        "space: right-anterior-superior\nspace directions: (-0.5,0,0) (0,-0.75,0) (0,0,2)\nspace origin: (10,20,30)\n"
-        "space units: \"mm\" \"mm\" \"mm\"\n\n",
+        ("space: right-anterior-superior\nspace directions: (-0.5,0,0) (0,-0.75,0) (0,0,2)\nspace origin: (10,20,30)\n"
+         "space units: \"mm\" \"mm\" \"mm\"\n\n"),
         "space: left-anterior-superior\nspace directions: (0.5,0,0) (0,-0.75,0) (0,0,2)\nspace origin: (-10,20,30)\n\n"};
     for (int i = 0; i < 3; i++) {
         err e = {0};
