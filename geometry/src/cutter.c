@@ -1,0 +1,161 @@
+#include "geometry/src/cutter.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include <assert.h>
+#include <stdlib.h>
+
+void cutter_free(cutter *c)
+{
+    surface_free(&c->body);
+    free(c->moves);
+    *c = (cutter){0};
+}
+
+static void polygon_normal(int nodes, const double *xyz, double n[3])
+{
+    n[0] = n[1] = n[2] = 0;
+    for (int i = 1; i + 1 < nodes; i++) {
+        double a[3], b[3], c[3];
+        vec_sub(xyz + 3 * i, xyz, a);
+        vec_sub(xyz + 3 * (i + 1), xyz, b);
+        vec_cross(a, b, c);
+        vec_add(n, c, n);
+    }
+    vec_normalize(n);
+}
+
+/* Twice the area of the triangle seen against n. */
+static double turn(const double *a, const double *b, const double *c, const double n[3])
+{
+    double u[3], v[3], w[3];
+    vec_sub(b, a, u);
+    vec_sub(c, a, v);
+    vec_cross(u, v, w);
+    return vec_dot(w, n);
+}
+
+/* Ear clipping; the polygon runs counter-clockwise seen against its normal. tri[3*(nodes-2)]. */
+static void clip_ears(int nodes, const double *xyz, int32_t *tri)
+{
+    double n[3];
+    polygon_normal(nodes, xyz, n);
+    int *left = NEW_ARRAY(int, nodes), count = nodes, made = 0;
+    for (int i = 0; i < nodes; i++) left[i] = i;
+    while (count > 3) {
+        int best = -1;
+        double best_turn = 0;
+        for (int i = 0; i < count; i++) { /* the fattest ear keeps slivers away */
+            const int a = left[(i + count - 1) % count], b = left[i], c = left[(i + 1) % count];
+            double t = turn(xyz + 3 * a, xyz + 3 * b, xyz + 3 * c, n);
+            bool empty = t > 0;
+            for (int k = 0; empty && k < count; k++) {
+                const int q = left[k];
+                if (q == a || q == b || q == c) continue;
+                empty = !(turn(xyz + 3 * a, xyz + 3 * b, xyz + 3 * q, n) >= 0 &&
+                          turn(xyz + 3 * b, xyz + 3 * c, xyz + 3 * q, n) >= 0 &&
+                          turn(xyz + 3 * c, xyz + 3 * a, xyz + 3 * q, n) >= 0);
+            }
+            if (empty && t > best_turn) {
+                best = i;
+                best_turn = t;
+            }
+        }
+        assert(best >= 0); /* else not simple */
+        tri[3 * made] = left[(best + count - 1) % count];
+        tri[3 * made + 1] = left[best];
+        tri[3 * made + 2] = left[(best + 1) % count];
+        made++;
+        for (int i = best; i + 1 < count; i++) left[i] = left[i + 1];
+        count--;
+    }
+    for (int k = 0; k < 3; k++) tri[3 * made + k] = left[k];
+    free(left);
+}
+
+cutter cutter_stack(int levels, int nodes, const double *xyz, const uint8_t *side_moves, bool first_cap_moves,
+                    bool last_cap_moves)
+{
+    assert(levels >= 2 && nodes >= 3);
+    int32_t cap = nodes - 2, count = 2 * cap + 2 * (levels - 1) * nodes, t = 0;
+    cutter c = {.body = surface_new(levels * nodes, count), .moves = NEW_ARRAY(uint8_t, count)};
+    for (int i = 0; i < 3 * levels * nodes; i++) c.body.xyz[i] = xyz[i];
+    int32_t *tri = c.body.tri;
+    clip_ears(nodes, xyz, tri);
+    for (int32_t i = 0; i < cap; i++) { /* the first cap looks away from the stack */
+        int32_t keep = tri[3 * i + 1];
+        tri[3 * i + 1] = tri[3 * i + 2];
+        tri[3 * i + 2] = keep;
+        c.moves[t++] = first_cap_moves;
+    }
+    clip_ears(nodes, xyz + 3 * (size_t)(levels - 1) * nodes, tri + 3 * (size_t)t);
+    for (int32_t i = 0; i < cap; i++) {
+        for (int k = 0; k < 3; k++) tri[3 * t + k] += (levels - 1) * nodes;
+        c.moves[t++] = last_cap_moves;
+    }
+    for (int l = 0; l + 1 < levels; l++)
+        for (int j = 0; j < nodes; j++) {
+            int32_t a = l * nodes + j, b = l * nodes + (j + 1) % nodes, up = nodes;
+            int32_t quad[6] = {a, b, b + up, a, b + up, a + up};
+            for (int k = 0; k < 6; k++) tri[3 * t + k] = quad[k];
+            c.moves[t] = c.moves[t + 1] = side_moves[j];
+            t += 2;
+        }
+    assert(t == count);
+    if (surface_volume(&c.body) < 0) surface_flip(&c.body);
+    return c;
+}
+
+cutter cutter_box(const head_frame *f, const double low[3], const double high[3])
+{
+    double xyz[24];
+    for (int i = 0; i < 8; i++) {
+        int corner = i % 4;
+        double local[3] = {corner == 1 || corner == 2 ? high[0] : low[0], corner >= 2 ? high[1] : low[1],
+                           i >= 4 ? high[2] : low[2]};
+        head_frame_to_world(f, local, xyz + 3 * i);
+    }
+    return cutter_stack(2, 4, xyz, (const uint8_t[4]){0}, false, false);
+}
+
+/* Solves the symmetric positive 3x3 system by Cramer's rule. */
+static void solve3(const double a[9], const double b[3], double x[3])
+{
+    double det = mat_det(a);
+    for (int c = 0; c < 3; c++) {
+        double m[9];
+        for (int i = 0; i < 9; i++) m[i] = i % 3 == c ? b[i / 3] : a[i];
+        x[c] = mat_det(m) / det;
+    }
+}
+
+/* Each vertex goes where its faces, shifted by their own amounts, meet: n . d = amount for all of them, solved by
+ * least squares. The small diagonal picks the shortest d where the faces leave a direction open. */
+surface cutter_offset(const cutter *c, double mm)
+{
+    surface out = surface_copy(&c->body);
+    double *a = NEW_ARRAY(double, 9 * (size_t)out.vertex_count), *b = NEW_ARRAY(double, 3 * (size_t)out.vertex_count);
+    for (int32_t t = 0; t < out.triangle_count; t++) {
+        const int32_t *v = c->body.tri + 3 * (size_t)t;
+        double u[3], w[3], n[3], amount = c->moves[t] ? mm : 0;
+        vec_sub(c->body.xyz + 3 * (size_t)v[1], c->body.xyz + 3 * (size_t)v[0], u);
+        vec_sub(c->body.xyz + 3 * (size_t)v[2], c->body.xyz + 3 * (size_t)v[0], w);
+        vec_cross(u, w, n);
+        if (!(vec_normalize(n) > 0)) continue;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 3; i++) {
+                for (int j = 0; j < 3; j++) a[9 * (size_t)v[k] + 3 * i + j] += n[i] * n[j];
+                b[3 * (size_t)v[k] + i] += amount * n[i];
+            }
+    }
+    for (int32_t v = 0; v < out.vertex_count; v++) {
+        double d[3], *m = a + 9 * (size_t)v;
+        for (int i = 0; i < 3; i++) m[4 * i] += 1e-6;
+        solve3(m, b + 3 * (size_t)v, d);
+        vec_add(out.xyz + 3 * (size_t)v, d, out.xyz + 3 * (size_t)v);
+    }
+    free(a);
+    free(b);
+    return out;
+}
+
+surface cutter_sheet(const cutter *c) { return surface_select(&c->body, c->moves); }
