@@ -86,7 +86,7 @@ typedef struct equilibrium {
     int iterations, factorisations, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
-    double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the solver */
+    double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
     double imbalance;            /* |sum of these| over the sum of their node forces' norms */
     double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */
     int64_t unknown_count, matrix_entries, factor_entries;

@@ -1,5 +1,5 @@
 /* Time of a whole solve against one linear solve of the same matrix. Prints CSV.
- *   slab [cells through the thickness, default 8] [model, default snhlog] [move of the patch outward, mm, default 6]
+ *   slab [cells through the thickness, default 5] [model, default snhlog] [move of the patch outward, mm, default 6]
  * 5 cells: 4.8k nodes; 10 cells: 34k. linear_s is one ordering, assembly, factorisation and solve of the
  * linear-elastic matrix; ratio is total_s / linear_s. */
 #include "geometry/mem.h"
@@ -12,10 +12,10 @@
 
 static double one_linear_solve(const equilibrium_problem *p, err *e)
 {
-    tissue *t = NULL;
+    solver *t = NULL;
     bool positive;
     double begin = clock_s();
-    if (!tissue_create(p, 1, &t, e)) return -1;
+    if (!solver_create(p, 1, &t, e)) return -1;
     double *b = NEW_ARRAY(double, t->b.unknown_count);
     for (int32_t i = 0; i < t->b.unknown_count; i++) b[i] = 1;
     assembly_stiffness(&t->a, p->mesh->xyz, PROJECTION_NONE);
@@ -26,7 +26,7 @@ static double one_linear_solve(const equilibrium_problem *p, err *e)
     fprintf(stderr, "prepare %.3f s (ordering %.3f), factorise %.3f s, solve %.4f s, %.2f GFLOP, nnz(L) %.1f M\n",
             t->prepare_s, s.analyse_s, s.factor_s, s.solve_s, s.factor_flops * 1e-9, (double)s.factor_entries * 1e-6);
     free(b);
-    tissue_destroy(&t);
+    solver_destroy(&t);
     return seconds;
 }
 
