@@ -71,9 +71,6 @@ static bool user_planes(const case_file *c, cut_plane **out, int *count, err *e)
 
 static bool cut(const case_file *c, anatomy *a, err *e)
 {
-    osteotomy_params p = osteotomy_params_default();
-    p.kerf_mm = c->cuts.kerf_mm;
-    p.apex_clearance_mm = c->cuts.le_fort_apex_clearance_mm;
     osteotomy_input in = {.skull = &a->skull, .mandible = &a->mandible, .points = &a->points};
     if (case_file_cuts(c, CUT_LE_FORT_1)) in.kinds |= OSTEOTOMY_LE_FORT_1;
     if (case_file_cuts(c, CUT_BSSO)) in.kinds |= OSTEOTOMY_BSSO;
@@ -81,7 +78,7 @@ static bool cut(const case_file *c, anatomy *a, err *e)
     cut_plane *planes;
     if (!user_planes(c, &planes, &in.plane_count, e)) return false;
     in.plane = planes;
-    bool ok = osteotomy_params_check(&p, e) && osteotomy_cut(&in, &p, &a->segments, &a->cuts, e);
+    bool ok = osteotomy_params_check(&c->cuts, e) && osteotomy_cut(&in, &c->cuts, &a->segments, &a->cuts, e);
     free(planes);
     return ok;
 }

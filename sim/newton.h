@@ -56,8 +56,8 @@ typedef struct solve_params {
     double rel_tol;             /* of the residual with the bones moved and the free tissue carried rigidly */
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;         /* longest move of an unknown in one iteration */
-    predictor predictor;
-    projection projection;      /* CLAMP or ABS */
+    enum predictor predictor;
+    enum projection projection; /* CLAMP or ABS */
     bool reuse_factor;          /* false: factorise in each iteration */
     int blas_threads;           /* 1: the same bits whatever the machine is doing; see linear.h */
     bool (*interrupted)(void *context); /* NULL or asked in each iteration */

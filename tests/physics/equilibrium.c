@@ -419,7 +419,7 @@ static void parameters_out_of_range_are_refused(void **state)
     params.load_steps = 0;
     assert_refused(equilibrium_solve(&s.problem, &params, &q, &e), ERR_INPUT);
     params = solve_params_default();
-    params.rel_tol = NAN;
+    params.rel_tol = nan("");
     assert_refused(equilibrium_solve(&s.problem, &params, &q, &e), ERR_INPUT);
     params = solve_params_default();
     s.problem.motion[SEGMENT_CHIN].r[0] = 2;

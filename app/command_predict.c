@@ -1,0 +1,213 @@
+/* gnathos predict CASE --plan P -o OUT: the face after a plan. */
+#include "app/command.h"
+#include "app/outcome.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#if GNATHOS_WITH_RENDER
+#include "app/pictures.h"
+#include <sys/stat.h>
+#endif
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+struct input {
+    command_options common;
+    const char *case_path[1], *plan, *out, *cache;
+    bool force, no_pictures;
+};
+
+enum { KEY_CACHE = 300, KEY_NO_PICTURES };
+
+static const struct argp_option options[] = {
+    {"plan", 'p', "FILE", 0, "The plan: bone moves as JSON (gnathos help plan)", 0},
+    {"output", 'o', "DIR", 0, "Folder for the results", 0},
+    {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
+    {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
+    {"cache", KEY_CACHE, "DIR", 0, "Keep what is prepared in DIR instead of CASE/prepared", 0},
+    {0}};
+
+static error_t parse(int key, char *arg, struct argp_state *state)
+{
+    struct input *in = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'p': in->plan = arg; return 0;
+    case 'o': in->out = arg; return 0;
+    case 'f': in->force = true; return 0;
+    case KEY_NO_PICTURES: in->no_pictures = true; return 0;
+    case KEY_CACHE: in->cache = arg; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
+    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
+    case ARGP_KEY_END:
+        if (!in->plan) argp_error(state, "name a plan with --plan");
+        if (!in->out) argp_error(state, "name a folder for the results with -o");
+        return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void show_progress(const char *stage, double fraction, void *context)
+{
+    command_progress_at(context, stage, fraction);
+}
+
+static bool was_interrupted(void *context)
+{
+    (void)context;
+    return app_interrupted();
+}
+
+static void show_iteration(const newton_record *r, void *context)
+{
+    char stage[96];
+    snprintf(stage, sizeof stage, "solving: load %.2f, iteration %d, residual %.2e mN", r->load, r->iteration,
+             r->residual_mn);
+    command_progress_at(context, stage, -1);
+}
+
+static bool solve(const case_file *c, const plan_file *plan, const plan_moves *moves, const prepared *p,
+                  command_options *common, equilibrium *out, err *e)
+{
+    region_material tissue_material = {.region = REGION_ANY};
+    if (!material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson, &tissue_material.material, e))
+        return false;
+    equilibrium_problem problem = {.mesh = &p->tissue.mesh,
+                                   .attach = &p->tissue.attach,
+                                   .materials = &tissue_material,
+                                   .material_count = 1};
+    for (int s = 0; s < SEGMENT_COUNT; s++) problem.motion[s] = moves->move[s];
+    solve_params params = solve_params_default();
+    if (plan->load_steps > 0) params.load_steps = plan->load_steps;
+    params.interrupted = was_interrupted;
+    params.progress = show_iteration;
+    params.context = common;
+    return equilibrium_solve(&problem, &params, out, e);
+}
+
+#if GNATHOS_WITH_RENDER
+static bool draw(const outcome *o, const output_dir *dir, err *e)
+{
+    char *folder = output_dir_file(dir, "pictures");
+    pictures_input in = {.case_name = o->patient->name,
+                         .plan_text = o->plan->name,
+                         .hash = o->prepared->hash,
+                         .skin_before = &o->prepared->skin,
+                         .skin_after = o->skin,
+                         .at_rest = &o->prepared->segments,
+                         .move = o->moves->move,
+                         .points = &o->prepared->points,
+                         .frame = &o->prepared->frame};
+    bool ok = mkdir(folder, 0777) == 0 ? pictures_write(&in, folder, false, e)
+                                       : err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made");
+    free(folder);
+    return ok;
+}
+#endif
+
+/* Writes the output folder. Only an equilibrium becomes meshes and pictures; a failed solve leaves its record. */
+static bool write_all(const struct input *in, outcome *o, err *e)
+{
+    output_dir dir;
+    if (!output_dir_open(in->out, in->force, &dir, e)) return false;
+    bool ok = true;
+    double start = seconds();
+    if (o->points) {
+        command_progress_at(&in->common, "writing the meshes", 0.8);
+        ok = outcome_write_meshes(o, &dir, e);
+        o->write_s = seconds() - start;
+#if GNATHOS_WITH_RENDER
+        if (ok && !in->no_pictures) {
+            command_progress_at(&in->common, "drawing the pictures", 0.85);
+            ok = draw(o, &dir, e);
+        }
+#endif
+        o->pictures_s = seconds() - start - o->write_s;
+    }
+    if (ok && app_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
+    if (ok) {
+        char *path = output_dir_file(&dir, "outcome.json");
+        json_t *record = outcome_json(o);
+        ok = json_file_write(record, path, e);
+        json_decref(record);
+        free(path);
+    }
+    if (ok) return output_dir_close(&dir, e);
+    output_dir_abandon(&dir);
+    return false;
+}
+
+static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, bool *solved,
+                    err *e)
+{
+    plan_file plan;
+    plan_moves moves;
+    if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e)) return false;
+    equilibrium q = {0};
+    double start = seconds();
+    if (!solve(c, &plan, &moves, p, (command_options *)&in->common, &q, e)) return false;
+    outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .solve = &q, .prepare_s = prepare_s,
+                 .solve_s = seconds() - start};
+    *solved = q.outcome == SOLVED;
+    carried_landmarks points = {0};
+    surface skin = {0};
+    double *u = NEW_ARRAY(double, 3 * (size_t)q.node_count);
+    bool ok = q.outcome != STOPPED_INTERRUPTED || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
+    if (ok && *solved) {
+        for (size_t i = 0; i < 3 * (size_t)q.node_count; i++) u[i] = q.xyz[i] - p->tissue.mesh.xyz[i];
+        skin = surface_copy(&p->skin);
+        embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, skin.xyz);
+        ok = carry_landmarks(p, &moves, u, &points, e);
+        o.u = u;
+        o.skin = &skin;
+        o.points = &points;
+    }
+    ok = ok && write_all(in, &o, e);
+    if (ok && in->common.json) command_print_json(outcome_json(&o), "predict");
+    else if (ok) {
+        outcome_print(&o);
+        if (*solved) printf("Results in %s\n", in->out);
+    }
+    free(u);
+    surface_free(&skin);
+    carried_landmarks_free(&points);
+    equilibrium_free(&q);
+    return ok;
+}
+
+int command_predict(int argc, char **argv)
+{
+    static const struct argp argp = {options, parse, "CASE", "Predict the face after a plan.", command_common, NULL, NULL};
+    struct input in = {0};
+    argp_parse(&argp, argc, argv, 0, NULL, &in);
+    err e = {0};
+    case_file c;
+    landmarks points = {0};
+    plan_file plan;
+    plan_moves moves;
+    prepared p = {0};
+    bool solved = false;
+    double start = seconds();
+    /* a wrong plan is told before the minutes of preparation */
+    if (!case_file_load(in.case_path[0], &c, &e) || !landmarks_read(c.landmarks, &points, NULL, &e) ||
+        !plan_moves_load(in.plan, &c, &points, &plan, &moves, &e) ||
+        !prepared_get(&c, in.cache, show_progress, &in.common, &p, &e))
+        return command_fail(&e);
+    landmarks_free(&points);
+    bool ok = predict(&in, &c, &p, seconds() - start, &solved, &e);
+    prepared_free(&p);
+    if (!ok) return command_fail(&e);
+    if (!solved) {
+        err_set(&e, ERR_NOT_CONVERGED, "%s: the solve did not reach equilibrium, so there is no face to show; %s/outcome.json "
+                "has its record", in.plan, in.out);
+        return command_fail(&e);
+    }
+    return 0;
+}
