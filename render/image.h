@@ -22,7 +22,8 @@ uint8_t *image_pixel(const image *im, int x, int y);
 void image_paste(image *to, const image *from, int x, int y);
 /* The mean of each 2 x 2 pixels; an odd last row or column is dropped. */
 image image_half(const image *im);
-/* The number of pixels of which some channel differs by more than `tolerance` (0..255); -1 if the sizes differ. */
+/* The number of pixels of which some channel differs by more than `tolerance` (0..255); -1 if the sizes
+ * differ. */
 int64_t image_difference(const image *a, const image *b, int tolerance);
 
 #ifdef __cplusplus

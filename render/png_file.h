@@ -9,10 +9,11 @@ typedef struct png_note { /* a tEXt chunk: Latin-1, keyword of 1 to 79 character
     const char *key, *value;
 } png_note;
 
-/* 8-bit RGBA, or RGB where the image is opaque throughout, with the texts and no time stamp: same image and texts,
- * same bytes. The file appears whole or not at all. Refuses (ERR_RESOURCE) what cannot be written, (ERR_USAGE) a bad
- * keyword. */
-bool png_file_write(const image *im, const png_note *texts, int text_count, const char *path, err *e) MUST_CHECK;
+/* 8-bit RGBA, or RGB where the image is opaque throughout, with the texts and no time stamp: same image and
+ * texts, same bytes. The file appears whole or not at all. Refuses (ERR_RESOURCE) what cannot be written,
+ * (ERR_USAGE) a bad keyword. */
+bool png_file_write(const image *im, const png_note *texts, int text_count, const char *path,
+                    err *e) MUST_CHECK;
 /* *out is created; the caller frees it. Refuses (ERR_INPUT) what is not a whole PNG file. */
 bool png_file_read(const char *path, image *out, err *e) MUST_CHECK;
 /* The value of a tEXt chunk, newly allocated; NULL in *value if there is none. */

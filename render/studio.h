@@ -20,10 +20,11 @@ typedef struct model_params {
     /* Triangles that meet at more than this angle get normals of their own, so that a saw cut keeps its edge;
      * 180: smooth everywhere. */
     double crease_deg;
-    /* Each pass replaces every shading normal by the mean of itself and its neighbours. Surfaces from CT carry the
-     * steps of the slices; a few passes take them out of the light. */
+    /* Each pass replaces every shading normal by the mean of itself and its neighbours. Surfaces from CT
+     * carry the steps of the slices; a few passes take them out of the light. */
     int normal_passes;
-    /* Passes of the same mean over the light that reaches each vertex: the spread of red light under the skin. */
+    /* Passes of the same mean over the light that reaches each vertex: the spread of red light under the
+     * skin. */
     int scatter_passes;
 } model_params;
 
@@ -32,9 +33,10 @@ model_params model_params_bone(void); /* crease 50 degrees, 2 passes, 1 pass */
 
 typedef struct model model;
 
-/* Copies what it needs from the surface; free with model_free. Refuses (ERR_GEOMETRY) what surface_check refuses. */
+/* Copies what it needs from the surface; free with model_free. Refuses (ERR_GEOMETRY) what surface_check
+ * refuses. */
 bool model_create(studio *s, const surface *from, const model_params *params, model **out, err *e) MUST_CHECK;
-void model_free(model **m); /* idempotent; before studio_close */
+void model_free(model **m);                 /* idempotent; before studio_close */
 int32_t model_vertex_count(const model *m); /* of the surface it was made from */
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* backend: six functions between the drawing code and whatever gives it OpenGL 3.3 core without a window. One source
- * file implements them (context_osmesa.c); a build picks exactly one. */
+/* backend: six functions between the drawing code and whatever gives it OpenGL 3.3 core without a window. One
+ * source file implements them (context_osmesa.c); a build picks exactly one. */
 #pragma once
 #include "geometry/err.h"
 

@@ -1,5 +1,5 @@
-/* Light transfer: for each of a few dozen directions the layers are drawn into a depth map, and every vertex that the
- * map hides loses the light from there. */
+/* Light transfer: for each of a few dozen directions the layers are drawn into a depth map, and every vertex
+ * that the map hides loses the light from there. */
 #include "render/picture.h"
 #include "render/src/studio.h"
 #include "geometry/mem.h"
@@ -68,7 +68,8 @@ static void gather(int64_t begin, int64_t end, void *context)
     const job *j = context;
     for (int64_t v = begin; v < end; v++) {
         const float *n = j->m->normal + 3 * v, *x = j->m->xyz + 3 * v;
-        double normal[3] = {(double)n[0], (double)n[1], (double)n[2]}, facing = vec_dot(normal, j->toward_local);
+        double normal[3] = {(double)n[0], (double)n[1], (double)n[2]},
+               facing = vec_dot(normal, j->toward_local);
         if (facing <= 0) continue;
         double p[3] = {(double)x[0], (double)x[1], (double)x[2]};
         vec_axpy(p, lift_mm, normal, p);
@@ -121,10 +122,11 @@ static void bounding_sphere(const layer *layers, int count, double centre[3], do
 
 static void finish_transfer(model *m, const float *lost, float *work)
 {
-    static const double lobe[HARMONICS] = {1,        2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
+    static const double lobe[HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
                                            1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
     float *transfer = NEW_ARRAY(float, 2 * HARMONICS * (size_t)m->vertex_count);
-    /* The open lobe is exact; only what is hidden was sampled, so that open skin carries no sampling noise. */
+    /* The open lobe is exact; only what is hidden was sampled, so that open skin carries no sampling noise.
+     */
     for (int32_t v = 0; v < m->vertex_count; v++) {
         const float *n = m->normal + 3 * (size_t)v;
         double y[HARMONICS];
@@ -147,6 +149,7 @@ bool picture_bake(studio *s, const layer *layers, int layer_count, int direction
     if (layer_count < 1) return true;
     if (directions < 32 || directions > 1024)
         return err_set(e, ERR_USAGE, "light from %d directions: 32 to 1024 are possible", directions);
+    if (!studio_use(s, e)) return false;
     const gl *g = &s->gl;
     GLuint frame, depth_buffer;
     g->GenFramebuffers(1, &frame);
@@ -162,19 +165,21 @@ bool picture_bake(studio *s, const layer *layers, int layer_count, int direction
 
     float *depth = NEW_ARRAY(float, MAP_SIDE *MAP_SIDE), **lost = NEW_ARRAY(float *, layer_count);
     for (int l = 0; l < layer_count; l++)
-        lost[l] = NEW_ARRAY(float, HARMONICS * (size_t)layers[l].shape->vertex_count);
+        lost[l] = NEW_ARRAY(float, HARMONICS *(size_t)layers[l].shape->vertex_count);
     job j = {.share = 4.0 / directions, .depth = depth};
     bounding_sphere(layers, layer_count, j.centre, &j.radius);
     g->Viewport(0, 0, MAP_SIDE, MAP_SIDE);
     g->Enable(GL_DEPTH_TEST);
     g->Disable(GL_BLEND);
-    /* Sides that face away hide nothing that the sides facing the light do not; closed or not, half the work. */
+    /* Sides that face away hide nothing that the sides facing the light do not; closed or not, half the work.
+     */
     g->Enable(GL_CULL_FACE);
     g->CullFace(GL_BACK);
     g->DepthFunc(GL_LESS);
     g->DepthMask(GL_TRUE);
     g->UseProgram(s->ribbon);
-    GLint to_clip = g->GetUniformLocation(s->ribbon, "to_clip"), moving = g->GetUniformLocation(s->ribbon, "move");
+    GLint to_clip = g->GetUniformLocation(s->ribbon, "to_clip"),
+          moving = g->GetUniformLocation(s->ribbon, "move");
     for (int i = 0; ok && i < directions; i++) {
         sphere_direction(i, directions, j.toward);
         double helper[3] = {fabs(j.toward[0]) < 0.7, fabs(j.toward[0]) >= 0.7, 0};
@@ -204,7 +209,7 @@ bool picture_bake(studio *s, const layer *layers, int layer_count, int direction
         ok = studio_check(s, "gathering the light", e);
     }
     for (int l = 0; l < layer_count; l++) {
-        float *work = NEW_ARRAY(float, HARMONICS * (size_t)layers[l].shape->vertex_count);
+        float *work = NEW_ARRAY(float, HARMONICS *(size_t)layers[l].shape->vertex_count);
         if (ok) finish_transfer(layers[l].shape, lost[l], work);
         free(work);
         free(lost[l]);

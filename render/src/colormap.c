@@ -19,7 +19,10 @@ static void viridis(double t, double rgb[3])
     }
 }
 
-double colormap_linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4); }
+double colormap_linear(double srgb)
+{
+    return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4);
+}
 double colormap_encode(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
@@ -66,7 +69,8 @@ static void lab_to_msh(const double lab[3], double msh[3])
     msh[2] = msh[1] > 1e-9 ? atan2(lab[2], lab[1]) : 0;
 }
 
-/* The hue that an unsaturated end takes so that the path does not swing through foreign hues (Moreland, figure 6). */
+/* The hue that an unsaturated end takes so that the path does not swing through foreign hues (Moreland,
+ * figure 6). */
 static double adjusted_hue(const double saturated[3], double grey_magnitude)
 {
     if (saturated[0] >= grey_magnitude) return saturated[2];
@@ -77,7 +81,8 @@ static double adjusted_hue(const double saturated[3], double grey_magnitude)
 
 static void coolwarm(double t, double rgb[3])
 {
-    static const double ends[2][3] = {{59.0 / 255, 76.0 / 255, 192.0 / 255}, {180.0 / 255, 4.0 / 255, 38.0 / 255}};
+    static const double ends[2][3] = {{59.0 / 255, 76.0 / 255, 192.0 / 255},
+                                      {180.0 / 255, 4.0 / 255, 38.0 / 255}};
     const double middle = 88; /* magnitude of the light grey between two distant hues */
     double lab[3], msh[3], mix = t < 0.5 ? 2 * t : 2 - 2 * t; /* 0 at the coloured end, 1 at grey */
     rgb_to_lab(ends[t < 0.5 ? 0 : 1], lab);
@@ -96,8 +101,10 @@ const uint8_t *colormap_table(colormap map)
     if (!made[map]) {
         for (int i = 0; i < COLORMAP_SIZE; i++) {
             double rgb[3], t = i / (COLORMAP_SIZE - 1.0);
-            if (map == COLORMAP_VIRIDIS) viridis(t, rgb);
-            else coolwarm(t, rgb);
+            if (map == COLORMAP_VIRIDIS)
+                viridis(t, rgb);
+            else
+                coolwarm(t, rgb);
             for (int k = 0; k < 3; k++)
                 table[map][3 * i + k] = (uint8_t)(255 * fmin(1, fmax(0, rgb[k])) + 0.5);
         }

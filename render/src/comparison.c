@@ -24,9 +24,9 @@ comparison_params comparison_params_default(void)
 void comparison_segment_color(segment_id id, double rgb[3])
 {
     static const double color[SEGMENT_COUNT][3] = {
-        [SEGMENT_CRANIUM] = {0.905, 0.865, 0.765},       [SEGMENT_MAXILLA] = {0.38, 0.62, 0.82},
-        [SEGMENT_DISTAL] = {0.93, 0.69, 0.36},           [SEGMENT_PROXIMAL_LEFT] = {0.48, 0.74, 0.52},
-        [SEGMENT_PROXIMAL_RIGHT] = {0.24, 0.60, 0.56},   [SEGMENT_CHIN] = {0.72, 0.52, 0.77},
+        [SEGMENT_CRANIUM] = {0.905, 0.865, 0.765},     [SEGMENT_MAXILLA] = {0.38, 0.62, 0.82},
+        [SEGMENT_DISTAL] = {0.93, 0.69, 0.36},         [SEGMENT_PROXIMAL_LEFT] = {0.48, 0.74, 0.52},
+        [SEGMENT_PROXIMAL_RIGHT] = {0.24, 0.60, 0.56}, [SEGMENT_CHIN] = {0.72, 0.52, 0.77},
     };
     vec_copy(color[id], rgb);
 }
@@ -70,12 +70,14 @@ static bool check(const comparison *c, err *e)
     if (!c->skin_before != !c->skin_after)
         return err_set(e, ERR_USAGE, "a comparison needs the skin before and after, or neither");
     if (!c->skin_before && !c->part_count) return err_set(e, ERR_USAGE, "a comparison of nothing");
-    if (c->part_count < 0 || !(c->region_radius_mm >= 0)) return err_set(e, ERR_USAGE, "a comparison of nothing");
+    if (c->part_count < 0 || !(c->region_radius_mm >= 0))
+        return err_set(e, ERR_USAGE, "a comparison of nothing");
     if (!c->skin_before) return true;
     const surface *a = c->skin_before, *b = c->skin_after;
     if (a->vertex_count != b->vertex_count || a->triangle_count != b->triangle_count ||
         memcmp(a->tri, b->tri, 3 * (size_t)a->triangle_count * sizeof *a->tri) != 0)
-        return err_set(e, ERR_GEOMETRY, "the skin before (%d vertices) and after (%d) do not have the same triangles",
+        return err_set(e, ERR_GEOMETRY,
+                       "the skin before (%d vertices) and after (%d) do not have the same triangles",
                        a->vertex_count, b->vertex_count);
     for (int32_t v = 0; c->displacement_mm && v < b->vertex_count; v++)
         if (c->displacement_mm[v] < 0)
@@ -92,8 +94,9 @@ static void measure(work *w)
     double *sorted = NEW_ARRAY(double, n);
     for (int32_t v = 0; v < n; v++) {
         size_t i = 3 * (size_t)v;
-        w->displacement[v] = c->displacement_mm ? c->displacement_mm[v]
-                                                : vec_distance(c->skin_after->xyz + i, c->skin_before->xyz + i);
+        w->displacement[v] = c->displacement_mm
+                                 ? c->displacement_mm[v]
+                                 : vec_distance(c->skin_after->xyz + i, c->skin_before->xyz + i);
         if (!isnan(w->displacement[v])) sorted[known++] = w->displacement[v];
     }
     qsort(sorted, (size_t)known, sizeof *sorted, compare_doubles);
@@ -142,7 +145,8 @@ static camera camera_for(const work *w, int view, int width, int height)
     camera out = camera_standard(views[view].view, &c->frame, c->region_centre);
     if (c->region_radius_mm > 0) {
         camera_fit(&out, c->region_radius_mm, width, height, fit_margin);
-        out.depth_mm = fmax(out.depth_mm, 600); /* what lies outside the region is cut by the border, not by depth */
+        out.depth_mm =
+            fmax(out.depth_mm, 600); /* what lies outside the region is cut by the border, not by depth */
         return out;
     }
     const surface **all = NEW_ARRAY(const surface *, 2 + c->part_count);
@@ -165,7 +169,8 @@ static void write_marks(const work *w, pen *p, const image *im, const camera *ca
 {
     double scale = camera_scale(cam, im->height);
     label_sides(p, 0, 0, im->width, im->height, size, cam, &w->c->frame);
-    label_scale_bar(p, 0.9 * size, im->height - 1.0 * size, scale, label_scale_length(scale, im->width), 0.8 * size);
+    label_scale_bar(p, 0.9 * size, im->height - 1.0 * size, scale, label_scale_length(scale, im->width),
+                    0.8 * size);
 }
 
 static void write_heat(const work *w, pen *p, const image *im, double size)
@@ -197,7 +202,8 @@ static void write_legend(const work *w, pen *p, const image *im, double size)
         widest = fmax(widest, pen_text_width(p, 0.75 * size, false, part->name));
     }
     double height = count * 1.55 * 0.75 * size;
-    label_legend(p, im->width - widest - 2.3 * size, im->height - height - 0.6 * size, 0.75 * size, entry, count);
+    label_legend(p, im->width - widest - 2.3 * size, im->height - height - 0.6 * size, 0.75 * size, entry,
+                 count);
     free(entry);
 }
 
@@ -239,8 +245,10 @@ static bool draw_tile(work *w, tile_kind kind, int view, bool after, image *half
             pen_close(&marker);
         }
     }
-    if (ok) *out = im;
-    else image_free(&im);
+    if (ok)
+        *out = im;
+    else
+        image_free(&im);
     return ok;
 }
 
@@ -257,8 +265,8 @@ static compose_params sheet_params(const work *w, int columns, int tile_height, 
     return p;
 }
 
-static bool add_sheet(work *w, const char *name, const char *title, const compose_tile *tiles, int count, int columns,
-                      err *e)
+static bool add_sheet(work *w, const char *name, const char *title, const compose_tile *tiles, int count,
+                      int columns, err *e)
 {
     assert(w->sheet_count < COMPARISON_PICTURES_MAX);
     sheet *s = w->sheets + w->sheet_count;
@@ -368,7 +376,8 @@ bool comparison_write(const comparison *c, const comparison_params *params, cons
                                       .heat_high_mm = w.high,
                                       .largest_mm = w.largest,
                                       .median_mm = w.median};
-        for (int i = 0; i < w.sheet_count; i++) memcpy(result->name[i], w.sheets[i].name, COMPARISON_NAME_SIZE);
+        for (int i = 0; i < w.sheet_count; i++)
+            memcpy(result->name[i], w.sheets[i].name, COMPARISON_NAME_SIZE);
     }
     for (int k = 0; k < 2; k++) {
         for (int v = 0; v < VIEWS; v++) image_free(&t[k].skin[v]);

@@ -13,17 +13,23 @@ struct backend {
 
 bool backend_open(backend **out, err *e)
 {
-    static const int attributes[] = {OSMESA_FORMAT,        OSMESA_RGBA,
-                                     OSMESA_DEPTH_BITS,    24,
-                                     OSMESA_PROFILE,       OSMESA_CORE_PROFILE,
-                                     OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                                     OSMESA_CONTEXT_MINOR_VERSION, 3,
+    static const int attributes[] = {OSMESA_FORMAT,
+                                     OSMESA_RGBA,
+                                     OSMESA_DEPTH_BITS,
+                                     24,
+                                     OSMESA_PROFILE,
+                                     OSMESA_CORE_PROFILE,
+                                     OSMESA_CONTEXT_MAJOR_VERSION,
+                                     3,
+                                     OSMESA_CONTEXT_MINOR_VERSION,
+                                     3,
                                      0};
     backend *b = mem_alloc(1, sizeof *b);
     b->context = OSMesaCreateContextAttribs(attributes, NULL);
     if (!b->context) {
         free(b);
-        return err_set(e, ERR_RESOURCE, "no pictures: OSMesa gives no OpenGL 3.3 core context (is libosmesa6 whole?)");
+        return err_set(e, ERR_RESOURCE,
+                       "no pictures: OSMesa gives no OpenGL 3.3 core context (is libosmesa6 whole?)");
     }
     *out = b;
     return true;

@@ -4,14 +4,14 @@
 
 enum { SAMPLES = 512 };
 
-/* Everything in viewer axes: right, up, toward the viewer. Radiance, linear. A lamp is a lobe (d . direction)^power:
- * a soft box, the wider the smaller the power. */
+/* Everything in viewer axes: right, up, toward the viewer. Radiance, linear. A lamp is a lobe (d .
+ * direction)^power: a soft box, the wider the smaller the power. */
 static const struct {
     double direction[3], power, rgb[3];
 } lamp[] = {
-    {{-0.50, 0.58, 0.64}, 7, {2.95, 2.80, 2.62}},  /* key, upper left, a little warm */
-    {{0.78, 0.12, 0.61}, 4, {0.78, 0.82, 0.88}},   /* fill, right, a little cool */
-    {{0.85, 0.30, -0.44}, 8, {1.10, 1.18, 1.30}},  /* rim lights from behind: the outline stands off */
+    {{-0.50, 0.58, 0.64}, 7, {2.95, 2.80, 2.62}}, /* key, upper left, a little warm */
+    {{0.78, 0.12, 0.61}, 4, {0.78, 0.82, 0.88}},  /* fill, right, a little cool */
+    {{0.85, 0.30, -0.44}, 8, {1.10, 1.18, 1.30}}, /* rim lights from behind: the outline stands off */
     {{-0.85, 0.30, -0.44}, 8, {0.80, 0.86, 0.95}},
 };
 static const double sky[3] = {0.52, 0.55, 0.60}, ground[3] = {0.26, 0.24, 0.235};

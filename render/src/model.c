@@ -5,8 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-model_params model_params_skin(void) { return (model_params){180, 3, 5}; }
-model_params model_params_bone(void) { return (model_params){50, 2, 1}; }
+model_params model_params_skin(void)
+{
+    return (model_params){180, 3, 5};
+}
+model_params model_params_bone(void)
+{
+    return (model_params){50, 2, 1};
+}
 
 /* Unit normals of the triangles; zero for a triangle without area. */
 static double *face_normals(const surface *s)
@@ -26,7 +32,8 @@ static double *face_normals(const surface *s)
 /* corner[first[v] .. first[v+1]) are the positions of vertex v in tri, in ascending order. */
 static void corners_of_vertices(const surface *s, int32_t **first, int32_t **corner)
 {
-    int32_t *f = NEW_ARRAY(int32_t, s->vertex_count + 2), *c = NEW_ARRAY(int32_t, 3 * (size_t)s->triangle_count);
+    int32_t *f = NEW_ARRAY(int32_t, s->vertex_count + 2),
+            *c = NEW_ARRAY(int32_t, 3 * (size_t)s->triangle_count);
     for (int32_t i = 0; i < 3 * s->triangle_count; i++) f[s->tri[i] + 2]++;
     for (int32_t v = 0; v <= s->vertex_count; v++) f[v + 1] += f[v];
     for (int32_t i = 0; i < 3 * s->triangle_count; i++) c[f[s->tri[i] + 1]++] = i;
@@ -73,8 +80,10 @@ static void split_creases(const surface *s, const double *face, double crease_ra
                     const double *fa = face + 3 * (size_t)(c[i] / 3), *fb = face + 3 * (size_t)(c[j] / 3);
                     if (a == b || !share_edge(s, c[i], c[j])) continue;
                     if (vec_dot(fa, fb) < least && vec_dot(fa, fa) > 0 && vec_dot(fb, fb) > 0) continue;
-                    if (a < b) parent[b] = a;
-                    else parent[a] = b;
+                    if (a < b)
+                        parent[b] = a;
+                    else
+                        parent[a] = b;
                 }
         for (int32_t i = 0; i < n; i++) {
             if (root_of(parent, i) != i) continue;
@@ -89,13 +98,14 @@ static void split_creases(const surface *s, const double *face, double crease_ra
     free(corner);
 }
 
-/* Normals weighted by the angle of each triangle at the vertex (Thuermer and Wuethrich 1998): they do not depend on
- * how a flat face is cut into triangles. */
+/* Normals weighted by the angle of each triangle at the vertex (Thuermer and Wuethrich 1998): they do not
+ * depend on how a flat face is cut into triangles. */
 static void angle_weighted_normals(const surface *s, const double *face, model *m)
 {
     for (int32_t i = 0; i < 3 * m->triangle_count; i++) {
         int32_t t = i / 3;
-        const double *p = s->xyz + 3 * (size_t)s->tri[i], *q = s->xyz + 3 * (size_t)s->tri[3 * t + (i + 1) % 3],
+        const double *p = s->xyz + 3 * (size_t)s->tri[i],
+                     *q = s->xyz + 3 * (size_t)s->tri[3 * t + (i + 1) % 3],
                      *r = s->xyz + 3 * (size_t)s->tri[3 * t + (i + 2) % 3];
         double a[3], b[3];
         vec_sub(q, p, a);
@@ -112,7 +122,8 @@ static void unit_normals(model *m)
 {
     for (int32_t v = 0; v < m->vertex_count; v++) {
         float *n = m->normal + 3 * (size_t)v;
-        double length = sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2]);
+        double length =
+            sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2]);
         for (int k = 0; k < 3; k++) n[k] = length > 0 ? (float)((double)n[k] / length) : (k == 2);
     }
 }
@@ -128,13 +139,15 @@ void model_smooth(const model *m, float *values, int components, int passes)
             const int32_t *v = m->tri + 3 * (size_t)t;
             for (int k = 0; k < 3; k++) {
                 float *to = sum + n * (size_t)v[k];
-                const float *a = values + n * (size_t)v[(k + 1) % 3], *b = values + n * (size_t)v[(k + 2) % 3];
+                const float *a = values + n * (size_t)v[(k + 1) % 3],
+                            *b = values + n * (size_t)v[(k + 2) % 3];
                 for (size_t c = 0; c < n; c++) to[c] += a[c] + b[c];
             }
         }
         for (int32_t v = 0; v < m->vertex_count; v++)
             for (size_t c = 0; c < n; c++)
-                values[n * (size_t)v + c] = 0.5f * (values[n * (size_t)v + c] + sum[n * (size_t)v + c] / count[v]);
+                values[n * (size_t)v + c] =
+                    0.5f * (values[n * (size_t)v + c] + sum[n * (size_t)v + c] / count[v]);
     }
     free(sum);
     free(count);
@@ -160,15 +173,15 @@ void model_set_transfer(model *m, const float *transfer)
 {
     const gl *g = &m->home->gl;
     g->BindBuffer(GL_ARRAY_BUFFER, m->transfer_buffer);
-    g->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * HARMONICS * (size_t)m->vertex_count * sizeof *transfer), transfer,
-                  GL_STATIC_DRAW);
+    g->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * HARMONICS * (size_t)m->vertex_count * sizeof *transfer),
+                  transfer, GL_STATIC_DRAW);
 }
 
 /* Transfer of a vertex that nothing hides the sky from: the cosine lobe, 1, 2/3, 1/4 in degrees 0, 1, 2
  * (R. Ramamoorthi and P. Hanrahan 2001, equation 8, over pi). */
 static float *open_transfer(const model *m)
 {
-    static const double lobe[HARMONICS] = {1,        2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
+    static const double lobe[HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
                                            1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
     float *transfer = NEW_ARRAY(float, 2 * HARMONICS * (size_t)m->vertex_count);
     for (int32_t v = 0; v < m->vertex_count; v++) {
@@ -187,7 +200,7 @@ static float *open_transfer(const model *m)
 bool model_create(studio *s, const surface *from, const model_params *params, model **out, err *e)
 {
     assert(params->normal_passes >= 0 && params->scatter_passes >= 0 && params->crease_deg >= 0);
-    if (!surface_check(from, e)) return false;
+    if (!surface_check(from, e) || !studio_use(s, e)) return false;
     model *m = mem_alloc(1, sizeof *m);
     m->home = s;
     m->source_count = from->vertex_count;
@@ -218,7 +231,8 @@ bool model_create(studio *s, const surface *from, const model_params *params, mo
     model_set_transfer(m, transfer);
     free(transfer);
     for (int i = 0; i < 6; i++) attribute(g, (GLuint)(2 + i), 2 * HARMONICS, 3 * i);
-    m->index_buffer = upload(g, GL_ELEMENT_ARRAY_BUFFER, m->tri, 3 * (size_t)m->triangle_count * sizeof *m->tri);
+    m->index_buffer =
+        upload(g, GL_ELEMENT_ARRAY_BUFFER, m->tri, 3 * (size_t)m->triangle_count * sizeof *m->tri);
     g->BindVertexArray(0);
     if (!studio_check(s, "loading a surface", e)) {
         model_free(&m);
@@ -233,8 +247,12 @@ void model_free(model **m)
     if (!*m) return;
     model *it = *m;
     const gl *g = &it->home->gl;
+    err e = {0};
+    bool bound = studio_use(it->home, &e);
+    assert(bound);
     g->DeleteVertexArrays(1, &it->array);
-    g->DeleteBuffers(4, (GLuint[4]){it->point_buffer, it->normal_buffer, it->transfer_buffer, it->index_buffer});
+    g->DeleteBuffers(4,
+                     (GLuint[4]){it->point_buffer, it->normal_buffer, it->transfer_buffer, it->index_buffer});
     free(it->source);
     free(it->tri);
     free(it->xyz);
@@ -243,4 +261,7 @@ void model_free(model **m)
     *m = NULL;
 }
 
-int32_t model_vertex_count(const model *m) { return m->source_count; }
+int32_t model_vertex_count(const model *m)
+{
+    return m->source_count;
+}

@@ -1,4 +1,5 @@
 #include "render/picture.h"
+#include "render/src/canvas.h"
 #include "render/src/light.h"
 #include "render/src/studio.h"
 #include "geometry/mem.h"
@@ -7,12 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES_PER_PIXEL = 4 }; /* the most that OSMesa has */
-
 typedef struct look {
-    double rgb[3];                /* sRGB */
-    float scatter[3];             /* share of scattered light, red green blue */
-    float gloss, shine, sheen;    /* sharpness and strength of the highlight, strength of the outline light */
+    double rgb[3];             /* sRGB */
+    float scatter[3];          /* share of scattered light, red green blue */
+    float gloss, shine, sheen; /* sharpness and strength of the highlight, strength of the outline light */
 } look;
 
 static const look looks[] = {
@@ -22,7 +21,10 @@ static const look looks[] = {
     [MATERIAL_PLAIN] = {{0.70, 0.72, 0.75}, {0, 0, 0}, 26, 0.50f, 0.04f},
 };
 
-void material_color(material m, double rgb[3]) { vec_copy(looks[m].rgb, rgb); }
+void material_color(material m, double rgb[3])
+{
+    vec_copy(looks[m].rgb, rgb);
+}
 
 layer layer_default(model *shape, material kind)
 {
@@ -60,7 +62,8 @@ static bool check(const picture *p, const picture_style *style, err *e)
     return true;
 }
 
-/* World to clip, column-major, seen `toward_mm` nearer than it is (0 for surfaces; lines lie a little above). */
+/* World to clip, column-major, seen `toward_mm` nearer than it is (0 for surfaces; lines lie a little above).
+ */
 static void clip_matrix(const camera *c, int width, int height, double toward_mm, float m[16])
 {
     double half_h = c->half_height_mm, half_w = half_h * width / height;
@@ -137,7 +140,8 @@ static loaded load_layer(const gl *g, const layer *l)
     if (l->vertex_rgb) {
         for (int32_t v = 0; v < m->vertex_count; v++)
             for (size_t k = 0; k < 3; k++)
-                values[3 * (size_t)v + k] = (float)colormap_linear(l->vertex_rgb[3 * (size_t)m->source[v] + k] / 255.0);
+                values[3 * (size_t)v + k] =
+                    (float)colormap_linear(l->vertex_rgb[3 * (size_t)m->source[v] + k] / 255.0);
         out.colour_buffer = load_floats(g, values, 3 * (size_t)m->vertex_count);
     }
     if (l->scalar) {
@@ -210,12 +214,16 @@ static void draw_layer(studio *s, const layer *l, const loaded *x, const camera 
     uniform_float(g, s->shade, "fade", l->scalar ? (l->fade_end - l->low) / (l->high - l->low) : 0);
     g->BindTexture(GL_TEXTURE_2D, x->map);
     g->BindVertexArray(l->shape->array);
-    set_attribute(g, 8, 3, x->colour_buffer, colormap_linear(l->rgb[0]), colormap_linear(l->rgb[1]), colormap_linear(l->rgb[2]));
+    set_attribute(g, 8, 3, x->colour_buffer, colormap_linear(l->rgb[0]), colormap_linear(l->rgb[1]),
+                  colormap_linear(l->rgb[2]));
     set_attribute(g, 9, 2, x->value_buffer, 0, 1, 0);
     g->DrawElements(GL_TRIANGLES, 3 * l->shape->triangle_count, GL_UNSIGNED_INT, NULL);
 }
 
-static void color_writes(const gl *g, bool on) { g->ColorMask(on, on, on, on); }
+static void color_writes(const gl *g, bool on)
+{
+    g->ColorMask(on, on, on, on);
+}
 
 static void draw_layers(studio *s, const picture *p, const loaded *x, const float clip[16])
 {
@@ -311,7 +319,8 @@ static void draw_extras(studio *s, const picture *p, int width, int height, bool
         const stroke *k = p->strokes + i;
         int pieces = k->closed ? k->count : k->count - 1;
         if (k->on_top != on_top || pieces < 1) continue;
-        float clip[16], *points = ribbon(k, &p->view, pieces), *joint = NEW_ARRAY(float, 3 * (size_t)k->count);
+        float clip[16], *points = ribbon(k, &p->view, pieces),
+                        *joint = NEW_ARRAY(float, 3 * (size_t)k->count);
         clip_matrix(&p->view, width, height, stroke_lift_mm, clip);
         rigid stay = rigid_identity();
         g->UseProgram(s->ribbon);
@@ -320,7 +329,8 @@ static void draw_extras(studio *s, const picture *p, int width, int height, bool
         uniform_rgb(g, s->ribbon, "colour", k->rgb, true);
         draw_loose(g, GL_TRIANGLES, points, 6 * pieces);
         for (int v = 0; v < 3 * k->count; v++) joint[v] = (float)k->xyz[v];
-        draw_balls(s, &p->view, width, height, joint, k->count, k->width_mm / 2, k->rgb, stroke_lift_mm, true);
+        draw_balls(s, &p->view, width, height, joint, k->count, k->width_mm / 2, k->rgb, stroke_lift_mm,
+                   true);
         free(points);
         free(joint);
     }
@@ -328,64 +338,10 @@ static void draw_extras(studio *s, const picture *p, int width, int height, bool
         const mark *k = p->marks + i;
         if (k->on_top != on_top) continue;
         float at[3] = {(float)k->xyz[0], (float)k->xyz[1], (float)k->xyz[2]};
-        draw_balls(s, &p->view, width, height, at, 1, k->radius_mm, k->rgb, k->radius_mm + stroke_lift_mm, false);
+        draw_balls(s, &p->view, width, height, at, 1, k->radius_mm, k->rgb, k->radius_mm + stroke_lift_mm,
+                   false);
     }
     g->Enable(GL_DEPTH_TEST);
-}
-
-typedef struct canvas { /* samples, their mean per sample pixel, final pixels */
-    GLuint many, many_colour, many_depth, one, one_colour, one_depth, final, final_colour;
-} canvas;
-
-static bool canvas_open(const gl *g, int width, int height, int factor, canvas *out, err *e)
-{
-    canvas c;
-    int w = width * factor, h = height * factor;
-    g->GenFramebuffers(1, &c.many);
-    g->GenFramebuffers(1, &c.one);
-    g->GenFramebuffers(1, &c.final);
-    g->GenRenderbuffers(1, &c.many_colour);
-    g->GenRenderbuffers(1, &c.many_depth);
-    g->GenRenderbuffers(1, &c.one_depth);
-    g->GenRenderbuffers(1, &c.final_colour);
-    g->GenTextures(1, &c.one_colour);
-
-    g->BindRenderbuffer(GL_RENDERBUFFER, c.many_colour);
-    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_RGBA16F, w, h);
-    g->BindRenderbuffer(GL_RENDERBUFFER, c.many_depth);
-    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_DEPTH_COMPONENT32F, w, h);
-    g->BindRenderbuffer(GL_RENDERBUFFER, c.one_depth);
-    g->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, w, h);
-    g->BindRenderbuffer(GL_RENDERBUFFER, c.final_colour);
-    g->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-    g->BindTexture(GL_TEXTURE_2D, c.one_colour);
-    g->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, w, h, 0, GL_RGBA, GL_FLOAT, NULL);
-    g->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    g->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-
-    bool ok = true;
-    g->BindFramebuffer(GL_FRAMEBUFFER, c.final);
-    g->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, c.final_colour);
-    ok &= g->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    g->BindFramebuffer(GL_FRAMEBUFFER, c.one);
-    g->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, c.one_colour, 0);
-    g->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, c.one_depth);
-    ok &= g->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    g->BindFramebuffer(GL_FRAMEBUFFER, c.many);
-    g->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, c.many_colour);
-    g->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, c.many_depth);
-    ok &= g->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    *out = c;
-    return ok || err_set(e, ERR_RESOURCE, "no picture: a frame buffer of %d x %d pixels with %d samples cannot be made",
-                         w, h, SAMPLES_PER_PIXEL);
-}
-
-static void canvas_close(const gl *g, canvas *c)
-{
-    g->BindFramebuffer(GL_FRAMEBUFFER, 0);
-    g->DeleteFramebuffers(3, (GLuint[3]){c->many, c->one, c->final});
-    g->DeleteRenderbuffers(4, (GLuint[4]){c->many_colour, c->many_depth, c->one_depth, c->final_colour});
-    g->DeleteTextures(1, &c->one_colour);
 }
 
 /* A mark is seen if nothing lies more than its own lift in front of it. */
@@ -401,7 +357,8 @@ static void look_for_marks(const gl *g, const picture *p, const canvas *c, int w
         double t[4];
         clip_matrix(&p->view, w, h, p->marks[i].radius_mm + 2 * stroke_lift_mm, clip);
         for (int r = 0; r < 4; r++)
-            t[r] = (double)clip[r] * a[0] + (double)clip[4 + r] * a[1] + (double)clip[8 + r] * a[2] + (double)clip[12 + r];
+            t[r] = (double)clip[r] * a[0] + (double)clip[4 + r] * a[1] + (double)clip[8 + r] * a[2] +
+                   (double)clip[12 + r];
         int x = (int)((t[0] / t[3] + 1) / 2 * w), y = (int)((t[1] / t[3] + 1) / 2 * h);
         bool inside = x >= 0 && y >= 0 && x < w && y < h;
         if (inside) g->ReadPixels(x, y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
@@ -441,9 +398,10 @@ static void finish(studio *s, const canvas *c, const picture_style *style, image
     free(row);
 }
 
-bool picture_render(studio *s, const picture *p, const picture_style *style, image *out, uint8_t *mark_seen, err *e)
+bool picture_render(studio *s, const picture *p, const picture_style *style, image *out, uint8_t *mark_seen,
+                    err *e)
 {
-    if (!check(p, style, e)) return false;
+    if (!check(p, style, e) || !studio_use(s, e)) return false;
     const gl *g = &s->gl;
     int w = style->width * style->supersample, h = style->height * style->supersample;
     canvas c;
@@ -486,7 +444,9 @@ bool picture_render(studio *s, const picture *p, const picture_style *style, ima
     }
     free(x);
     canvas_close(g, &c);
-    if (ok) *out = drawn;
-    else image_free(&drawn);
+    if (ok)
+        *out = drawn;
+    else
+        image_free(&drawn);
     return ok;
 }

@@ -1,7 +1,7 @@
 #include "render/src/shaders.h"
 
-/* Light reaches a vertex as sum_i light[i] * transfer[i]; each colour channel mixes the sharp and the scattered
- * transfer by its own share, red most. */
+/* Light reaches a vertex as sum_i light[i] * transfer[i]; each colour channel mixes the sharp and the
+ * scattered transfer by its own share, red most. */
 const char *const shader_shade_vertex =
     "#version 330 core\n"
     "layout(location=0) in vec3 position;\n"
@@ -41,7 +41,7 @@ const char *const shader_shade_fragment =
     "in vec3 at, facing, lit, base;\n"
     "in vec2 shown;\n"
     "in float open_sky;\n"
-    "uniform vec3 eye, back;\n"       /* eye only in perspective */
+    "uniform vec3 eye, back;\n" /* eye only in perspective */
     "uniform float perspective;\n"
     "uniform vec3 key_direction, fill_direction;\n"
     "uniform float gloss, shine, sheen, opacity;\n"
@@ -73,7 +73,8 @@ const char *const shader_shade_fragment =
     "        float spark = glint(n, v, key_direction) + 0.35 * glint(n, v, fill_direction);\n"
     "        float edge = pow(1.0 - nv, 4.0);\n"
     "        c = bounced + shine * spark * reach + sheen * edge * reach * vec3(0.85, 0.93, 1.0);\n"
-    "    } else {\n" /* the inside of an open surface: flat and dull, so that it is not taken for an outside */
+    "    } else {\n" /* the inside of an open surface: flat and dull, so that it is not taken for an outside
+                      */
     "        float nv = abs(dot(n, v));\n"
     "        c = albedo * vec3(0.30, 0.28, 0.29) * (0.5 + 0.5 * nv);\n"
     "    }\n"
@@ -107,21 +108,19 @@ const char *const shader_ball_fragment =
     "}\n";
 
 /* Also draws depth alone: position by the same expressions as above, so that depths are equal to the bit. */
-const char *const shader_ribbon_vertex =
-    "#version 330 core\n"
-    "layout(location=0) in vec3 position;\n"
-    "uniform mat4 move, to_clip;\n"
-    "invariant gl_Position;\n"
-    "void main() {\n"
-    "    vec4 w = move * vec4(position, 1.0);\n"
-    "    gl_Position = to_clip * w;\n"
-    "}\n";
+const char *const shader_ribbon_vertex = "#version 330 core\n"
+                                         "layout(location=0) in vec3 position;\n"
+                                         "uniform mat4 move, to_clip;\n"
+                                         "invariant gl_Position;\n"
+                                         "void main() {\n"
+                                         "    vec4 w = move * vec4(position, 1.0);\n"
+                                         "    gl_Position = to_clip * w;\n"
+                                         "}\n";
 
-const char *const shader_ribbon_fragment =
-    "#version 330 core\n"
-    "uniform vec3 colour;\n"
-    "out vec4 result;\n"
-    "void main() { result = vec4(colour, 1.0); }\n";
+const char *const shader_ribbon_fragment = "#version 330 core\n"
+                                           "uniform vec3 colour;\n"
+                                           "out vec4 result;\n"
+                                           "void main() { result = vec4(colour, 1.0); }\n";
 
 const char *const shader_finish_vertex =
     "#version 330 core\n"
@@ -143,7 +142,8 @@ const char *const shader_finish_fragment =
     "    return min(c, 0.75) + 0.25 * (1.0 - exp(-over / 0.25));\n"
     "}\n"
     "vec3 encode(vec3 c) {\n"
-    "    return mix(12.92 * c, 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));\n"
+    "    return mix(12.92 * c, 1.055 * pow(max(c, 0.0031308), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, "
+    "c));\n"
     "}\n"
     "void main() {\n"
     "    ivec2 at = ivec2(gl_FragCoord.xy) * factor;\n"
@@ -158,7 +158,8 @@ const char *const shader_finish_fragment =
     "    vec3 ground = mix(bottom, top, smoothstep(0.0, 1.0, gl_FragCoord.y / height));\n"
     "    vec3 front = sum.a > 0.0 ? encode(sum.rgb / sum.a) : vec3(0.0);\n"
     /* ordered dither over one step of 8 bits: no bands in the background */
-    "    const float bayer[16] = float[16](0., 8., 2., 10., 12., 4., 14., 6., 3., 11., 1., 9., 15., 7., 13., 5.);\n"
+    "    const float bayer[16] = float[16](0., 8., 2., 10., 12., 4., 14., 6., 3., 11., 1., 9., 15., 7., 13., "
+    "5.);\n"
     "    ivec2 cell = ivec2(gl_FragCoord.xy) & 3;\n"
     "    float dither = ((bayer[4 * cell.y + cell.x] + 0.5) / 16.0 - 0.5) / 255.0;\n"
     "    result = vec4(mix(ground, front, min(sum.a, 1.0)) + dither, 1.0);\n"

@@ -12,6 +12,11 @@ bool studio_check(studio *s, const char *doing, err *e)
     return err_set(e, ERR_RESOURCE, "no picture: OpenGL error 0x%04x while %s", code, doing);
 }
 
+bool studio_use(studio *s, err *e)
+{
+    return backend_bind(s->context, e);
+}
+
 static bool set_up(studio *s, err *e)
 {
     const gl *g = &s->gl;
@@ -50,4 +55,7 @@ void studio_close(studio **s)
     *s = NULL;
 }
 
-const char *studio_description(const studio *s) { return s->description; }
+const char *studio_description(const studio *s)
+{
+    return s->description;
+}

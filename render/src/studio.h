@@ -16,11 +16,11 @@ struct studio {
 /* Vertices are those of the surface, split where it has a crease. */
 struct model {
     studio *home;
-    int32_t source_count;         /* vertices of the surface */
+    int32_t source_count; /* vertices of the surface */
     int32_t vertex_count, triangle_count;
-    int32_t *source;              /* [vertex_count] vertex of the surface */
-    int32_t *tri;                 /* [3*triangle_count] */
-    float *xyz, *normal;          /* [3*vertex_count] */
+    int32_t *source;     /* [vertex_count] vertex of the surface */
+    int32_t *tri;        /* [3*triangle_count] */
+    float *xyz, *normal; /* [3*vertex_count] */
     int scatter_passes;
     GLuint array, point_buffer, normal_buffer, transfer_buffer, index_buffer;
 };
@@ -33,5 +33,7 @@ void sphere_direction(int i, int n, double d[3]);
 void model_smooth(const model *m, float *values, int components, int passes);
 /* transfer[2*HARMONICS*vertex_count]: sharp, then scattered. Uploads it. */
 void model_set_transfer(model *m, const float *transfer);
+/* Makes the studio's context current; several studios may be open. */
+bool studio_use(studio *s, err *e) MUST_CHECK;
 /* GL errors since the last call become ERR_RESOURCE. */
 bool studio_check(studio *s, const char *doing, err *e);

@@ -1,0 +1,11 @@
+/* Private: the frame buffers a picture goes through. */
+#pragma once
+#include "render/src/gl.h"
+
+typedef struct canvas { /* samples, their mean per sample pixel, final pixels */
+    GLuint many, many_colour, many_depth, one, one_colour, one_depth, final, final_colour;
+} canvas;
+
+/* Leaves `many` bound. On refusal canvas_close is still to be called. */
+bool canvas_open(const gl *g, int width, int height, int factor, canvas *out, err *e) MUST_CHECK;
+void canvas_close(const gl *g, canvas *c);
