@@ -55,6 +55,7 @@ static int32_t count_holes(const surface *s)
 {
     size_t count = 3 * (size_t)s->triangle_count;
     int32_t *edge = NEW_ARRAY(int32_t, 2 * count), *parent = NEW_ARRAY(int32_t, s->vertex_count), holes = 0;
+    uint8_t *touched = NEW_ARRAY(uint8_t, s->vertex_count);
     for (int32_t v = 0; v < s->vertex_count; v++) parent[v] = v;
     for (size_t i = 0; i < count; i++) {
         int32_t a = s->tri[i], b = s->tri[i % 3 == 2 ? i - 2 : i + 1];
@@ -66,12 +67,14 @@ static int32_t count_holes(const surface *s)
         for (j = i + 1; j < count && !compare_edges(edge + 2 * i, edge + 2 * j); j++) {}
         if (j - i != 1) continue;
         int32_t a = find_root(parent, edge[2 * i]), b = find_root(parent, edge[2 * i + 1]);
+        int joined = (touched[edge[2 * i]] != 0) + (touched[edge[2 * i + 1]] != 0);
         if (a != b) parent[a] = b;
-        /* Each edge of a loop but the last joins two groups. */
-        holes += a == b;
+        holes += joined == 0 ? 1 : joined == 2 && a != b ? -1 : 0;
+        touched[edge[2 * i]] = touched[edge[2 * i + 1]] = 1;
     }
     free(edge);
     free(parent);
+    free(touched);
     return holes;
 }
 

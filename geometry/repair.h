@@ -28,7 +28,8 @@ repair_params repair_params_default(void);
  * closed. report may be NULL. */
 bool repair_solid(const surface *in, const repair_params *p, surface *out, repair_report *report, err *e) MUST_CHECK;
 
-/* Number of intersecting triangle pairs, at most `limit`. */
+/* Number of intersecting triangle pairs, at most `limit`, of any surface that passes surface_check: crowded edges and
+ * turned triangles do not matter. Triangles without area count too. */
 bool repair_count_self_intersections(const surface *s, int32_t limit, int32_t *count, err *e) MUST_CHECK;
 
 /* Alpha wrap: a closed surface around the (any quality) input, no ball of radius alpha fits into what it fills;

@@ -276,16 +276,6 @@ extern "C" bool repair_solid(const surface *in, const repair_params *p, surface 
     });
 }
 
-extern "C" bool repair_count_self_intersections(const surface *s, int32_t limit, int32_t *count, err *e)
-{
-    return guarded(e, "self-intersections", [&] {
-        if (!surface_check(s, e)) return false;
-        mesh m = mesh_from_surface(*s);
-        *count = static_cast<int32_t>(intersections(m, static_cast<unsigned>(std::max(1, limit))).size());
-        return true;
-    });
-}
-
 extern "C" bool repair_wrap(const surface *in, double alpha_mm, double offset_mm, surface *out, err *e)
 {
     return guarded(e, "wrap", [&] {
