@@ -57,7 +57,7 @@ int material_negative_modes(const material_terms *t, const double F[9], double v
 enum { REGION_ANY = INT32_MIN }; /* an entry for every region that no other entry names */
 typedef struct region_material {
     int32_t region;
-    material material;
+    struct material material;
 } region_material;
 
 #ifdef __cplusplus

@@ -244,10 +244,10 @@ static void refuses_constants_out_of_range(void **state)
     err e = {0};
     material m;
     assert_refused(material_make(MATERIAL_SNH_LOG, 0, 0.45, &m, &e), ERR_INPUT);
-    assert_refused(material_make(MATERIAL_SNH_LOG, NAN, 0.45, &m, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_SNH_LOG, nan(""), 0.45, &m, &e), ERR_INPUT);
     assert_refused(material_make(MATERIAL_SNH_LOG, 15, 0.5, &m, &e), ERR_INPUT);
     assert_refused(material_make(MATERIAL_SNH_LOG, 15, -1, &m, &e), ERR_INPUT);
-    assert_refused(material_make(MATERIAL_SNH_LOG, 15, NAN, &m, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_SNH_LOG, 15, nan(""), &m, &e), ERR_INPUT);
     for (int i = 0; i < MATERIAL_MODEL_COUNT; i++)
         assert_int_equal(material_model_from_name(material_model_name((material_model)i)), i);
     assert_int_equal(material_model_from_name("rubber"), -1);

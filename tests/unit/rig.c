@@ -191,7 +191,7 @@ static void controls_that_contradict_each_other_are_refused(void **state)
     assert_refused(rig_motion(&c, &straight, NULL, t, &e), ERR_INPUT);
     c = rig_controls_default();
     c.move[SEGMENT_DISTAL].kind = MOVE_ANGLES;
-    c.move[SEGMENT_DISTAL].roll_deg = NAN;
+    c.move[SEGMENT_DISTAL].roll_deg = nan("");
     assert_refused(rig_motion(&c, &straight, NULL, t, &e), ERR_INPUT);
     c = rig_controls_default();
     c.jaw.open_deg = 10;
