@@ -1,10 +1,11 @@
 #include "render/src/canvas.h"
+#include <stddef.h>
 
 enum { SAMPLES_PER_PIXEL = 4 }; /* the most that OSMesa has */
 
 bool canvas_open(const gl *g, int width, int height, int factor, canvas *out, err *e)
 {
-    canvas c;
+    canvas c = {.width = width, .height = height, .factor = factor};
     int w = width * factor, h = height * factor;
     g->GenFramebuffers(1, &c.many);
     g->GenFramebuffers(1, &c.one);
@@ -52,4 +53,5 @@ void canvas_close(const gl *g, canvas *c)
     g->DeleteFramebuffers(3, (GLuint[3]){c->many, c->one, c->final});
     g->DeleteRenderbuffers(4, (GLuint[4]){c->many_colour, c->many_depth, c->one_depth, c->final_colour});
     g->DeleteTextures(1, &c->one_colour);
+    *c = (canvas){0};
 }

@@ -398,14 +398,30 @@ static void finish(studio *s, const canvas *c, const picture_style *style, image
     free(row);
 }
 
+static bool use_canvas(studio *s, const picture_style *style, err *e)
+{
+    canvas *c = &s->sheet;
+    bool fits = c->width == style->width && c->height == style->height && c->factor == style->supersample;
+    if (!fits) {
+        if (c->width) canvas_close(&s->gl, c);
+        bool ok = canvas_open(&s->gl, style->width, style->height, style->supersample, c, e);
+        if (!ok) {
+            canvas_close(&s->gl, c);
+            return false;
+        }
+    }
+    s->gl.BindFramebuffer(GL_FRAMEBUFFER, c->many);
+    return true;
+}
+
 bool picture_render(studio *s, const picture *p, const picture_style *style, image *out, uint8_t *mark_seen,
                     err *e)
 {
     if (!check(p, style, e) || !studio_use(s, e)) return false;
     const gl *g = &s->gl;
     int w = style->width * style->supersample, h = style->height * style->supersample;
-    canvas c;
-    bool ok = canvas_open(g, style->width, style->height, style->supersample, &c, e);
+    bool ok = use_canvas(s, style, e);
+    canvas c = s->sheet;
     loaded *x = NEW_ARRAY(loaded, p->layer_count);
     image drawn = {0};
     if (ok) {
@@ -443,7 +459,7 @@ bool picture_render(studio *s, const picture *p, const picture_style *style, ima
         ok = studio_check(s, "drawing", e);
     }
     free(x);
-    canvas_close(g, &c);
+    g->BindFramebuffer(GL_FRAMEBUFFER, 0);
     if (ok)
         *out = drawn;
     else

@@ -1,7 +1,7 @@
 /* Private: what a studio and a model are made of. */
 #pragma once
 #include "render/studio.h"
-#include "render/src/gl.h"
+#include "render/src/canvas.h"
 
 enum { HARMONICS = 9 };
 
@@ -10,6 +10,7 @@ struct studio {
     gl gl;
     GLuint shade, ball, ribbon, finish; /* programs */
     GLuint empty_array;                 /* a vertex array without attributes, for the full-screen triangle */
+    canvas sheet; /* kept from the last picture: making it costs as much as a small model */
     char description[256];
 };
 
