@@ -66,6 +66,7 @@ bool app_interrupted(void);
 
 int command_check(int argc, char **argv);
 int command_import(int argc, char **argv);
+int command_new(int argc, char **argv);
 int command_help(int argc, char **argv);
 int command_prepare(int argc, char **argv);
 int command_predict(int argc, char **argv);

@@ -25,7 +25,7 @@
 
 const verb verbs[] = {
     {"help", "what a verb, a case, a plan or the landmarks are made of", command_help, NULL},
-    {"new", "make a case of a synthetic head", NOT_BUILT},
+    {"new", "make a case of a synthetic head", WITH_CGAL(command_new)},
     {"import", "make a case from meshes or a label map", WITH_CGAL(command_import)},
     {"check", "read a case and a plan and name everything wrong in them", WITH_CGAL(command_check)},
     {"cut", "cut the bones along the osteotomies", NOT_BUILT},

@@ -1,0 +1,174 @@
+#include "bodies.h"
+#include "sdf.h"
+
+/* The head without nose, lips and ears: bone of the mean skull plus the soft-tissue thickness of each place
+ * (T-Table), one point per row. */
+static const double face_points[][3] = {
+    /* forehead and vault, midline */
+    {0, -95.5, 38}, {0, -97, 52}, {0, -93.5, 70}, {0, -83, 90}, {0, -62, 107}, {0, -25, 118}, {0, 8, 119},
+    {0, 42, 111}, {0, 70, 90}, {0, 87, 58}, {0, 90, 28}, {0, 82, 0}, {0, 66, -28},
+    /* face, midline; under the nose this is its base */
+    {0, -92.5, 25}, {0, -88, 8}, {0, -89, -12}, {0, -95, -29}, {0, -96.5, -36}, {0, -96.5, -45}, {0, -94.5, -52},
+    {0, -92.5, -60}, {0, -92.3, -68}, {0, -94.8, -77}, {0, -93.5, -85}, {0, -87.5, -91.5}, {0, -75, -94.5},
+    {0, -60, -92}, {0, -40, -86}, {0, -15, -84},
+    /* z = 100, 75, 52 */
+    {30, -60, 98}, {43, -20, 104}, {46, 15, 104}, {36, 52, 98},
+    {24, -86.5, 75}, {45, -70, 75}, {60, -38, 77}, {67, 0, 78}, {66, 32, 76}, {49, 64, 75},
+    {20, -94.5, 52}, {40, -84, 52}, {55, -64, 52}, {65.5, -38, 52}, {71.5, -5, 52}, {73, 25, 50}, {61, 60, 50},
+    {34, 82, 50},
+    /* brow, temple */
+    {15, -94.8, 36}, {30, -92, 36}, {43, -84, 34}, {52, -72.5, 31}, {60, -53, 34}, {66, -30, 36}, {70, -5, 36},
+    {72.5, 20, 34}, {63, 58, 30}, {37, 81, 28},
+    /* sockets and eye level */
+    {12, -88, 25}, {14, -82, 14}, {31, -83.5, 25}, {31, -79, 12}, {45, -76.5, 15}, {54, -66.5, 13}, {60.5, -48, 14},
+    {65.5, -27, 14}, {69, -5, 15}, {70.5, 20, 12}, {61, 56, 8}, {35, 76, 6},
+    /* below the orbit */
+    {12, -85, 2}, {25, -86.5, 0}, {36, -84.5, 0}, {47, -78, -2}, {56, -67.5, 0}, {62.5, -50, 1}, {66, -31, 3},
+    {67.5, -10, 3}, {68, 18, -6}, {56, 48, -14}, {32, 63, -18},
+    {16, -89.5, -14}, {27, -88.2, -14}, {38, -83, -14}, {48, -75, -14}, {56, -63, -14}, {62, -46, -14}, {64, -28, -14},
+    {65, -8, -14},
+    /* lip base and cheek */
+    {12, -94.5, -30}, {22, -91.5, -30}, {32, -87, -30}, {43, -78.5, -30}, {52, -66, -30}, {58, -48, -31},
+    {61, -28, -32}, {61.5, -6, -30},
+    {13, -94, -45}, {24, -88, -46}, {33, -83.3, -46}, {42, -75.5, -46}, {49.5, -63, -46}, {55, -44, -48},
+    {57, -24, -48}, {57, -4, -47},
+    {13, -90.5, -60}, {24, -85.5, -61}, {33, -79, -61}, {41, -69, -61}, {47, -54, -62}, {51, -36, -63},
+    {53, -17, -61},
+    /* chin and border of the jaw */
+    {13, -91, -71}, {23, -85.5, -72}, {32, -76, -73}, {39, -62, -74}, {43.5, -44, -73}, {47, -27, -69},
+    {12, -90.5, -83}, {22, -82.5, -84}, {29, -71, -85.5}, {34, -57, -83}, {38, -42, -80},
+    {15, -72, -93.5}, {13, -58, -91}, {22, -40, -84}, {40, -20, -73}};
+
+radial body_skin_base(void)
+{
+    static const double centre[3] = {0, -15, 5};
+    return radial_through(centre, face_points, sizeof face_points / sizeof *face_points);
+}
+
+/* To the axes of the ear: q[0] out of the head, q[1] back, q[2] up. */
+static void to_ear(const double p[3], const double centre[3], double yaw, double tilt, double q[3])
+{
+    double d[3];
+    vec_sub(p, centre, d);
+    double c = cos(yaw), s = sin(yaw);
+    double x = c * d[0] - s * d[1], y = s * d[0] + c * d[1];
+    c = cos(tilt), s = sin(tilt);
+    q[0] = x;
+    q[1] = c * y - s * d[2];
+    q[2] = s * y + c * d[2];
+}
+
+enum { /* tubes of the skin */
+    HELIX, ANTIHELIX, RIDGE, WALL, UPPER_LIP, LOWER_LIP, LID_LINE, LID_CREASE, SKIN_TUBE_COUNT
+};
+_Static_assert((int)SKIN_TUBE_COUNT <= (int)SKIN_TUBES, "room in bodies");
+
+#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
+void body_skin_tubes(tube *t)
+{
+    /* the ear in its own axes: out, back, up */
+    static const double helix[][4] = {{-2, -8, 2, 2.0},   {2, -9.5, 12, 2.2},  {4.5, -6, 23, 2.4}, {6, 3, 29, 2.5},
+                                      {7, 12, 26, 2.6},   {7.5, 17, 15, 2.5},  {6.5, 16.5, 3, 2.4}, {5, 12.5, -9, 2.4},
+                                      {3.5, 7, -19, 2.8}, {2.5, 1, -24, 2.5}};
+    t[HELIX] = tube_round(helix, COUNT(helix));
+    static const double antihelix[][4] = {{4, 3, 20, 1.2}, {5, 8, 12, 2.0}, {5, 9.5, 2, 2.3}, {4.2, 7, -8, 2.2},
+                                          {3.4, 1.5, -13, 2.2}};
+    t[ANTIHELIX] = tube_round(antihelix, COUNT(antihelix));
+    static const double ridge[][4] = {{0, -86.7, 26, 5.4}, {0, -91.5, 13, 5.8}, {0, -97.8, 0, 6.0},
+                                      {0, -103.2, -10, 6.4}, {0, -107.0, -16.8, 7.4}};
+    t[RIDGE] = tube_round(ridge, COUNT(ridge));
+    static const double wall[][4] = {{5, -83, 18, 5}, {6.5, -87, 5, 5.6}, {8, -91.5, -7, 6.6}, {9.3, -95, -16, 7.4}};
+    t[WALL] = tube_round(wall, COUNT(wall));
+    static const double upper[][4] = {{-5, -95.3, -46.3, 4.8}, {0, -95.1, -46.6, 4.8}, {5, -95.3, -46.3, 4.8},
+                                      {11, -93.5, -46.9, 4.2}, {17, -90.4, -48.1, 3.1}, {24, -85.8, -50.3, 1.5}};
+    t[UPPER_LIP] = tube_round(upper, COUNT(upper));
+    static const double lower[][4] = {{-6, -93.0, -55.0, 5.4}, {0, -93.3, -55.1, 5.4}, {6, -93.0, -55.0, 5.4},
+                                      {12, -90.9, -54.4, 4.8}, {18, -88, -53.0, 3.4}, {24, -85.2, -51.0, 1.6}};
+    t[LOWER_LIP] = tube_round(lower, COUNT(lower));
+    static const double lid[][4] = {{16.5, -81.5, 13.2, 0.7}, {21, -86, 10.6, 0.75}, {27, -88.3, 8.8, 0.8},
+                                    {34, -87.6, 8.6, 0.8}, {40, -83.5, 10.4, 0.8}, {45.5, -77, 13.0, 0.6}};
+    t[LID_LINE] = tube_round(lid, COUNT(lid));
+    static const double crease[][4] = {{17.5, -83.5, 17.5, 0.6}, {22, -86.8, 21, 0.9}, {29, -87.6, 22.5, 1.0},
+                                       {36, -86, 22, 1.0}, {43, -81, 18.5, 0.8}, {47, -77, 15, 0.5}};
+    t[LID_CREASE] = tube_round(crease, COUNT(crease));
+}
+
+static double ear(const bodies *b, const double p[3])
+{
+    static const double centre[3] = {70, 6, 3};
+    double q[3];
+    to_ear(p, centre, -0.42, 0.2, q);
+    if (vec_norm(q) > 55) return vec_norm(q) - 40;
+    static const double lobe_at[3] = {2.5, 1.5, -22}, lobe[3] = {2.7, 6, 7.5};
+    static const double plate_at[3] = {2.5, 4, 5}, plate[3] = {2.2, 13, 24};
+    double d = sdf_ellipsoid_turned(q, plate_at, plate, 0.12, 0, 0.04);
+    d = tube_union(d, &b->skin[HELIX], q, 2.5);
+    d = tube_union(d, &b->skin[ANTIHELIX], q, 2.5);
+    d = sdf_union(d, sdf_ellipsoid_turned(q, lobe_at, lobe, 0.2, 0, 0), 4);
+    d = sdf_cut(d, sdf_ellipsoid(q, 6.0, 0.5, -2, 5.5, 6.5, 8.5), 3);
+    static const double tragus_a[3] = {1, -8, -2}, tragus_b[3] = {2.5, -6.5, -7};
+    return sdf_union(d, sdf_cone(q, tragus_a, 2.6, tragus_b, 3.0), 3);
+}
+
+static double nose(const bodies *b, const double p[3])
+{
+    static const double ala_at[3] = {11.0, -98, -21.3}, ala[3] = {5.4, 8.8, 6.4};
+    static const double columella_a[3] = {0, -107.5, -21.5}, columella_b[3] = {0, -97, -27.5};
+    static const double lobule[3] = {3.8, -106.3, -18}, lobule_semi[3] = {5.2, 6.3, 6};
+    double d = sdf_union(tube_distance(&b->skin[RIDGE], p), tube_distance(&b->skin[WALL], p), 9);
+    d = sdf_union(d, sdf_ellipsoid_turned(p, ala_at, ala, 0.25, -0.35, 0.1), 4.5);
+    d = sdf_union(d, sdf_cone(p, columella_a, 4.2, columella_b, 4.4), 4);
+    return sdf_union(d, sdf_ellipsoid_turned(p, lobule, lobule_semi, 0, 0, 0), 5);
+}
+
+static double nostrils(const double p[3])
+{
+    static const double at[3] = {7.0, -101.5, -27.3}, semi[3] = {2.7, 5.2, 6.3};
+    return sdf_ellipsoid_turned(p, at, semi, 0.1, -0.35, -0.15);
+}
+
+/* Height of the line between the lips. */
+static double lip_line(double x) { return -50.2 + 0.9 * exp(-(x - 7) * (x - 7) / 40) - 0.5 * sdf_step(14, 25, x); }
+
+/* The fissure that shows between the closed lips: a sheet that ends `back`, so that it does not open the mouth. */
+static double mouth_groove(const double p[3])
+{
+    double x = p[0], half = 0.35 + 0.2 * sdf_step(26, 18, x);
+    double back = -92.8 + 9.2 * (x / 25) * (x / 25);
+    return fmax(fmax(fabs(p[2] - lip_line(x)) - half, p[1] - back), x - 25);
+}
+
+static double eyes(const bodies *b, const double p[3], double d)
+{
+    d = sdf_union(d, sdf_ellipsoid(p, 31, -75.0, 13.5, 15.5, 12.4, 12.0), 9);
+    d = tube_cut(d, &b->skin[LID_LINE], p, 1.6);
+    return tube_cut(d, &b->skin[LID_CREASE], p, 2.6);
+}
+
+static double neck(const double p[3])
+{
+    double t = (p[2] + 100) / 100, q[3] = {p[0], p[1], 0};
+    double d = sdf_ellipsoid(q, 0, 12 - 2 * t, 0, 50 - 4 * t, 45 - 2 * t, 1e3);
+    return sdf_meet(d, p[2] + 30, 30);
+}
+
+double body_skin(const bodies *b, const double point[3])
+{
+    double p[3] = {fabs(point[0]), point[1], point[2]};
+    double d = sdf_union(radial_distance(&b->face, p), neck(p), 16);
+    if (d > 45) return d - 20;
+    if (p[1] < -60) {
+        d = eyes(b, p, d);
+        d = sdf_union(d, nose(b, p), 6);
+        d = sdf_cut(d, nostrils(p), 2.2);
+        d = tube_union(d, &b->skin[UPPER_LIP], p, 2.6);
+        d = tube_union(d, &b->skin[LOWER_LIP], p, 3.2);
+        static const double philtrum_a[3] = {0, -99.8, -31}, philtrum_b[3] = {0, -102.3, -41};
+        d = sdf_cut(d, sdf_cone(p, philtrum_a, 2.0, philtrum_b, 3.0), 3);
+        d = sdf_cut(d, mouth_groove(p), 1.8);
+    } else {
+        d = sdf_union(d, ear(b, p), 4);
+    }
+    return sdf_meet(d, -150 - p[2], 2);
+}

@@ -1,0 +1,33 @@
+/* norm_head: a synthetic patient from published norms: bones, teeth and skin that nobody ever had.
+ *
+ * One mean head is made of signed-distance shapes and meshed; smooth warps then take its landmarks exactly to where the
+ * asked measures want them. Axes LPS, origin between the porions, Frankfort plane z = 0. Symmetric unless asked. */
+#pragma once
+#include "geometry/landmarks.h"
+#include "geometry/surface.h"
+#include "norms.h"
+
+typedef struct norm_head_params {
+    norm_sex sex;
+    uint64_t seed;      /* 0: the mean head of the sex */
+    int skeletal_class; /* 1, 2, 3 */
+    double open_bite_mm;
+    double asymmetry_mm; /* of the chin, to the left */
+    double coarseness;   /* of the meshes, 1 to 3 */
+    bool is_set[MEASURE_COUNT];
+    double set[MEASURE_COUNT];
+} norm_head_params;
+
+typedef struct norm_head {
+    surface skin, skull, mandible, upper_teeth, lower_teeth; /* closed, outward; teeth one shell each */
+    uint8_t *skin_rgb;                                       /* [3*skin.vertex_count] */
+    landmarks points;
+    double asked[MEASURE_COUNT], obtained[MEASURE_COUNT];
+} norm_head;
+
+norm_head_params norm_head_params_default(void);
+/* Refuses (ERR_USAGE) a class other than 1..3 and a measure outside its range. */
+bool norm_head_params_check(const norm_head_params *p, err *e) MUST_CHECK;
+/* The caller frees *out. Refuses what norm_head_params_check does. About half a minute on two cores. */
+bool norm_head_build(const norm_head_params *p, norm_head *out, err *e) MUST_CHECK;
+void norm_head_free(norm_head *h);

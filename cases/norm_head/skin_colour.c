@@ -1,0 +1,51 @@
+#include "skin_colour.h"
+#include "geometry/mem.h"
+#include "sdf.h"
+
+static void blend(double rgb[3], const double to[3], double share)
+{
+    for (int c = 0; c < 3; c++) rgb[c] = sdf_mix(rgb[c], to[c], share);
+}
+
+/* 1 on the vermilion, falling to 0 within about a millimetre outside its border. */
+static double vermilion(double x, double y, double z)
+{
+    if (y > -78) return 0;
+    double t = fmin(x / 24.5, 1), arch = 1 - t * t;
+    double top = -50.4 + 7.6 * pow(arch, 0.75) - 1.1 * exp(-x * x / 8);
+    double bottom = -50.6 - 8.6 * pow(arch, 0.7);
+    return (1 - sdf_step(top - 0.8, top + 0.6, z)) * sdf_step(bottom - 0.6, bottom + 1.2, z) * (1 - sdf_step(23, 25, x));
+}
+
+static double brow(double x, double y, double z)
+{
+    if (y > -50) return 0;
+    double t = (x - 12) / 36; /* from the inner end to the tail */
+    if (t < -0.1 || t > 1.1) return 0;
+    double centre = 32.5 + 6.5 * sin(M_PI * sdf_clamp(0.15 + 0.62 * t, 0, 1)) - 4.5 * t;
+    double half = 3.6 * (1 - 0.65 * t);
+    return 0.75 * (1 - sdf_step(0.5 * half, 1.25 * half, fabs(z - centre))) * sdf_step(-0.1, 0.12, t) * (1 - sdf_step(0.85, 1.1, t));
+}
+
+uint8_t *skin_colours(const surface *skin)
+{
+    static const double base[3] = {222, 178, 152}, lip[3] = {186, 104, 98}, cheek[3] = {222, 156, 136};
+    static const double hair[3] = {104, 76, 60}, lash[3] = {120, 88, 74};
+    uint8_t *rgb = NEW_ARRAY(uint8_t, 3 * skin->vertex_count);
+    for (int i = 0; i < skin->vertex_count; i++) {
+        double x = fabs(skin->xyz[3 * i]), y = skin->xyz[3 * i + 1], z = skin->xyz[3 * i + 2], c[3];
+        vec_copy(base, c);
+        double d = hypot(hypot(x - 40, y + 78), z + 14);
+        blend(c, cheek, 0.45 * exp(-d * d / 420));
+        d = hypot(x, z + 18);
+        if (y < -98) blend(c, cheek, 0.4 * exp(-d * d / 120));
+        blend(c, lip, vermilion(x, y, z));
+        blend(c, hair, brow(x, y, z));
+        if (y < -70 && x > 15 && x < 47) {
+            double u = (x - 31) / 15, line = 8.6 + 5 * u * u;
+            blend(c, lash, 0.8 * (1 - sdf_step(0.5, 1.6, fabs(z - line))) * (1 - sdf_step(0.85, 1.1, fabs(u))));
+        }
+        for (int k = 0; k < 3; k++) rgb[3 * i + k] = (uint8_t)(sdf_clamp(c[k], 0, 255) + 0.5);
+    }
+    return rgb;
+}

@@ -1,0 +1,77 @@
+#include "tube.h"
+#include "geometry/mem.h"
+#include "sdf.h"
+#include <stdlib.h>
+
+tube tube_round(const double (*control)[4], int count)
+{
+    tube t = {.count = (count - 1) * TUBE_STEPS + 1, .flat = 1};
+    t.ball = mem_alloc((size_t)t.count, sizeof *t.ball);
+    double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < t.count; i++) {
+        sdf_spline(control[0], 4, count, (double)i / TUBE_STEPS, t.ball[i]);
+        for (int c = 0; c < 3; c++) {
+            low[c] = fmin(low[c], t.ball[i][c]);
+            high[c] = fmax(high[c], t.ball[i][c]);
+        }
+    }
+    for (int c = 0; c < 3; c++) t.centre[c] = (low[c] + high[c]) / 2;
+    for (int i = 0; i < t.count; i++) t.reach = fmax(t.reach, vec_distance(t.ball[i], t.centre) + t.ball[i][3]);
+    return t;
+}
+
+tube tube_flat(const double (*control)[4], int count, const double across[3], double flat)
+{
+    tube t = tube_round(control, count);
+    vec_copy(across, t.across);
+    vec_normalize(t.across);
+    t.reach *= fmax(flat, 1);
+    t.flat = flat;
+    return t;
+}
+
+void tube_free(tube *t)
+{
+    free(t->ball);
+    *t = (tube){0};
+}
+
+/* Ellipse with semi-axes r*flat along the axis of w and r across it, to first order. */
+static double flat_distance(double w, double rest, double r, double flat)
+{
+    double u = w / flat, k0 = sqrt(u * u + rest * rest) / r, k1 = sqrt(u * u / (flat * flat) + rest * rest) / (r * r);
+    return k1 < 1e-9 ? -r : k0 * (k0 - 1) / k1;
+}
+
+double tube_distance(const tube *t, const double p[3])
+{
+    double best = HUGE_VAL;
+    for (int i = 0; i + 1 < t->count; i++) {
+        const double *a = t->ball[i], *b = t->ball[i + 1];
+        double ab[3], q[3];
+        vec_sub(b, a, ab);
+        vec_sub(p, a, q);
+        double s = sdf_clamp(vec_dot(q, ab) / vec_dot(ab, ab), 0, 1), r = sdf_mix(a[3], b[3], s);
+        vec_axpy(q, -s, ab, q);
+        if (t->flat == 1) {
+            best = fmin(best, vec_norm(q) - r);
+        } else {
+            double w = vec_dot(q, t->across);
+            vec_axpy(q, -w, t->across, q);
+            best = fmin(best, flat_distance(w, vec_norm(q), r, t->flat));
+        }
+    }
+    return best;
+}
+
+double tube_union(double d, const tube *t, const double p[3], double k)
+{
+    double least = vec_distance(p, t->centre) - t->reach;
+    return least > d + k ? d : sdf_union(d, tube_distance(t, p), k);
+}
+
+double tube_cut(double d, const tube *t, const double p[3], double k)
+{
+    double least = vec_distance(p, t->centre) - t->reach;
+    return least > k - d ? d : sdf_cut(d, tube_distance(t, p), k);
+}
