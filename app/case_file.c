@@ -24,7 +24,7 @@ case_file case_file_default(void)
         .version = 1,
         .osteotomy_count = 3,
         .osteotomy = {{.cut = CUT_LE_FORT_1}, {.cut = CUT_BSSO}, {.cut = CUT_GENIOPLASTY}},
-        .cuts = {.kerf_mm = 0.5, .le_fort_apex_clearance_mm = 5},
+        .cuts = osteotomy_params_default(),
         .tissue = tissue_params_default(),
         .material = {.young_kpa = 15, .poisson = 0.45},
     };
@@ -184,7 +184,11 @@ static bool set_paths(const char *path, case_file *c)
     bool folder = !stat(path, &info) && S_ISDIR(info.st_mode);
     int length = (int)strlen(path);
     while (folder && length > 1 && path[length - 1] == '/') length--;
-    int n = snprintf(c->path, sizeof c->path, "%.*s%s", length, path, folder ? "/case.json" : "");
+    bool here = folder && length == 1 && path[0] == '.';
+    int n = snprintf(c->path, sizeof c->path, "%.*s%s", here ? 0 : length, path,
+                     here     ? "case.json"
+                     : folder ? "/case.json"
+                              : "");
     const char *slash = strrchr(c->path, '/');
     if (n < 0 || n >= FIELD_PATH_SIZE) return false;
     if (slash)

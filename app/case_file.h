@@ -4,6 +4,7 @@
 #include "app/bound.h"
 #include "app/fields.h"
 #include "geometry/mesh_file.h"
+#include "geometry/osteotomy.h"
 #include "geometry/segments.h"
 #include "geometry/tissue.h"
 
@@ -30,11 +31,6 @@ typedef struct case_osteotomy {
     segment_id segment;
 } case_osteotomy;
 
-typedef struct case_cuts {
-    double kerf_mm;                   /* width of the saw cut */
-    double le_fort_apex_clearance_mm; /* of the Le Fort I plane above the longest root */
-} case_cuts;
-
 typedef struct case_material {
     double young_kpa, poisson;
 } case_material;
@@ -50,7 +46,7 @@ typedef struct case_file {
     char planes[FIELD_PATH_SIZE]; /* user planes, or "" */
     int osteotomy_count;
     case_osteotomy osteotomy[CASE_OSTEOTOMIES_MAX];
-    case_cuts cuts;
+    osteotomy_params cuts;
     tissue_params tissue;
     case_material material;
     double bounds[BOUND_COUNT][2];

@@ -9,6 +9,7 @@ typedef struct check_found {
     mesh_file_report read[CASE_SURFACE_COUNT];
     int32_t open_edges[CASE_SURFACE_COUNT], crowded_edges[CASE_SURFACE_COUNT];
     double diagonal_mm[CASE_SURFACE_COUNT];
+    bool wrong_size[CASE_SURFACE_COUNT]; /* not a head in mm: what is measured on it says nothing */
     landmarks points;
     bool has_frame;
     double frame_residual_mm;

@@ -16,17 +16,32 @@ static bool all_there(const landmarks *l, const char *words)
     return true;
 }
 
+static bool is_missing(const landmark_row *r, const landmarks *l)
+{
+    return !landmarks_find(l, r->label) && !(r->instead && all_there(l, r->instead));
+}
+
 static void check_set(const case_file *c, const landmarks *l, issue_list *issues)
 {
     for (int i = 0; i < landmark_row_count; i++) {
-        const landmark_row *r = &landmark_rows[i];
-        if (landmarks_find(l, r->label) || (r->instead && all_there(l, r->instead))) continue;
-        if (landmark_is_needed(r, c))
-            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, r->label, "is missing (%s)%s%s%s",
+        const landmark_row *r = &landmark_rows[i], *next = r + 1;
+        char both[2 * LANDMARK_LABEL_SIZE];
+        if (!is_missing(r, l)) continue;
+        snprintf(both, sizeof both, "%s", r->label);
+        if (i + 1 < landmark_row_count && !strcmp(next->help, r->help) && is_missing(next, l)) {
+            snprintf(both, sizeof both, "%s, %s", r->label, next->label); /* left and right in one line */
+            i++;
+        }
+        const char *are = strchr(both, ',') ? "are" : "is";
+        if (landmark_is_needed(r, c) && r->instead && strstr(both, r->instead))
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both,
+                      "are missing, one of them is needed (%s)", r->help);
+        else if (landmark_is_needed(r, c))
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both, "%s missing (%s)%s%s%s", are,
                       r->help, r->instead ? "; " : "", r->instead ? r->instead : "",
                       r->instead ? " would do as well" : "");
-        else if (r->need == NEED_OPTIONAL && r->lost && !(r->instead))
-            issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, r->label, "is missing (%s); lost: %s",
+        else if (r->lost && !r->instead)
+            issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, both, "is missing (%s); lost: %s",
                       r->help, r->lost);
     }
     char unknown[600] = "";
@@ -44,31 +59,53 @@ static void check_set(const case_file *c, const landmarks *l, issue_list *issues
                   count, unknown);
 }
 
-/* A landmark far from its surface is a slip of the hand or belongs to another file. Teeth that are not a file
- * of their own are part of the bone. */
-static void check_distances(const case_file *c, const check_found *found, issue_list *issues)
+/* The surface that should carry the landmark. Teeth that are not a file of their own are part of the bone. */
+static case_surface carrier(const landmark_row *r, const check_found *found)
 {
+    if (r->on == CASE_UPPER_TEETH && !found->mesh[r->on].vertex_count) return CASE_SKULL;
+    if (r->on == CASE_LOWER_TEETH && !found->mesh[r->on].vertex_count) return CASE_MANDIBLE;
+    return r->on;
+}
+
+/* A landmark far from its surface is a slip of the hand; many of them belong to another patient, frame or
+ * unit. */
+static void check_distance_to(const case_file *c, const check_found *found, case_surface on,
+                              issue_list *issues)
+{
+    enum { MANY = 3 };
     const double doubtful_mm = 5, wrong_mm = 50;
-    nearest *tree[CASE_SURFACE_COUNT] = {0};
+    nearest *tree = NULL;
     err e = {0};
-    for (int i = 0; i < CASE_SURFACE_COUNT; i++)
-        if (found->mesh[i].vertex_count && !nearest_create(&found->mesh[i], &tree[i], &e)) {
-            issue_add_err(issues, ISSUE_ERROR, &e, c->surface[i]);
-            e = (err){0};
-        }
-    for (int i = 0; i < landmark_row_count; i++) {
-        const landmark_row *r = &landmark_rows[i];
-        const landmark *p = landmarks_find(&found->points, r->label);
-        case_surface on = r->on;
-        if (on == CASE_UPPER_TEETH && !tree[on]) on = CASE_SKULL;
-        if (on == CASE_LOWER_TEETH && !tree[on]) on = CASE_MANDIBLE;
-        if (!p || on == CASE_SURFACE_COUNT || !tree[on]) continue;
-        double d = nearest_point(tree[on], p->xyz, NULL, NULL);
-        if (d <= doubtful_mm) continue;
-        issue_add(issues, d > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0, r->label,
-                  "lies %.1f mm from the %s; it should lie on it", d, case_surface_name(on));
+    char far[200] = "";
+    int wrong = 0, all = 0;
+    if (!nearest_create(&found->mesh[on], &tree, &e)) {
+        issue_add_err(issues, ISSUE_ERROR, &e, c->surface[on]);
+        return;
     }
-    for (int i = 0; i < CASE_SURFACE_COUNT; i++) nearest_destroy(&tree[i]);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < landmark_row_count; i++) {
+            const landmark_row *r = &landmark_rows[i];
+            const landmark *p = landmarks_find(&found->points, r->label);
+            if (!p || carrier(r, found) != on) continue;
+            double d = nearest_point(tree, p->xyz, NULL, NULL);
+            if (pass == 0) {
+                size_t used = strlen(far);
+                all++;
+                if (d <= wrong_mm) continue;
+                snprintf(far + used, sizeof far - used, "%s%s", wrong++ ? ", " : "", r->label);
+            } else if (d > doubtful_mm && (wrong < MANY || d <= wrong_mm)) {
+                issue_add(issues, d > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0,
+                          r->label, "lies %.1f mm from the %s; it should lie on it", d,
+                          case_surface_name(on));
+            }
+        }
+    }
+    if (wrong >= MANY)
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, NULL,
+                  "%d of %d landmarks lie more than %g mm from the %s; are both of one patient, in one frame "
+                  "and in mm? (%s)",
+                  wrong, all, wrong_mm, case_surface_name(on), far);
+    nearest_destroy(&tree);
 }
 
 static void check_sides(const case_file *c, const landmarks *l, issue_list *issues)
@@ -133,5 +170,7 @@ void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
     check_set(c, &found->points, issues);
     check_frame(c, found, issues);
     check_sides(c, &found->points, issues);
-    check_distances(c, found, issues);
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++)
+        if (found->mesh[i].vertex_count && !found->wrong_size[i])
+            check_distance_to(c, found, (case_surface)i, issues);
 }

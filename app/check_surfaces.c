@@ -15,25 +15,26 @@ static double diagonal(const surface *s)
     return vec_distance(low, high);
 }
 
-static void check_size(const case_file *c, double d, issue_list *issues)
+static bool is_wrong_size(const case_file *c, double d, issue_list *issues)
 {
     static const struct {
         double per_mm;
         const char *unit;
     } units[] = {{1000, "metres"}, {10, "centimetres"}};
     const char *path = c->surface[CASE_SKIN];
-    if (d >= head_least_mm && d <= head_most_mm) return;
+    if (d >= head_least_mm && d <= head_most_mm) return false;
     for (int i = 0; i < 2; i++) {
         double mm = d * units[i].per_mm;
         if (mm < head_least_mm || mm > head_most_mm) continue;
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 0, NULL,
                   "the skin measures %.3g corner to corner, a head in %s; save it in mm (times %g)", d,
                   units[i].unit, units[i].per_mm);
-        return;
+        return true;
     }
     issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 0, NULL,
               "the skin measures %.4g mm corner to corner; a head measures %g to %g mm", d, head_least_mm,
               head_most_mm);
+    return true;
 }
 
 static void check_closed(const char *path, case_surface s, check_found *found, issue_list *issues)
@@ -75,7 +76,7 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
         }
         surface_edge_census(s, &found->open_edges[i], &found->crowded_edges[i]);
         found->diagonal_mm[i] = diagonal(s);
-        if (i == CASE_SKIN) check_size(c, found->diagonal_mm[i], issues);
+        if (i == CASE_SKIN) found->wrong_size[i] = is_wrong_size(c, found->diagonal_mm[i], issues);
         check_closed(path, (case_surface)i, found, issues);
     }
 }
@@ -102,10 +103,9 @@ void check_bones_inside(const case_file *c, const check_found *found, issue_list
     enum { SAMPLES = 1000 };
     const double through_mm = 1; /* incisors may touch or cross a lip */
     const surface *skin = &found->mesh[CASE_SKIN];
-    double d = found->diagonal_mm[CASE_SKIN];
     nearest *tree = NULL;
     err e = {0};
-    if (!skin->vertex_count || d < head_least_mm || d > head_most_mm) return;
+    if (!skin->vertex_count || found->wrong_size[CASE_SKIN]) return;
     if (!nearest_create(skin, &tree, &e)) {
         issue_add_err(issues, ISSUE_ERROR, &e, c->surface[CASE_SKIN]);
         return;

@@ -53,14 +53,18 @@ static void print_overview(void)
 
 static void print_landmarks(void)
 {
-    static const char *const need[] = {"required", "for le_fort_1", "for bsso", "for genioplasty",
-                                       "optional"};
-    printf("Landmarks, by label:\n\n");
+    static const char *const need[] = {"required", "le_fort_1", "bsso", "genioplasty"};
+    printf("Landmarks: when each is required, what it is, and what is lost without the optional ones.\n\n");
     for (int i = 0; i < landmark_row_count; i++) {
         const landmark_row *r = &landmark_rows[i];
-        printf("  %-8s %-15s %s", r->label, need[r->need], r->help);
+        char when[64] = "";
+        for (int b = 0; b < 4; b++) {
+            size_t n = strlen(when);
+            if (r->need & (1u << b)) snprintf(when + n, sizeof when - n, "%s%s", n ? ", " : "", need[b]);
+        }
+        printf("  %-8s %-18s %s", r->label, *when ? when : "-", r->help);
         if (r->instead) printf("; %s will do as well", r->instead);
-        if (r->lost) printf("; without it is lost: %s", r->lost);
+        if (r->lost) printf("; lost: %s", r->lost);
         printf("\n");
     }
 }

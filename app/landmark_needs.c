@@ -1,16 +1,17 @@
 #include "app/landmark_needs.h"
 
+/* A landmark of the left and the same of the right, in two rows that follow each other. */
 #define BOTH(label_, need_, on_, help_, lost_)                                                               \
-    {label_ "_L", need_, NULL, on_, help_ ", left", lost_},                                                  \
+    {label_ "_L", need_, NULL, on_, help_, lost_},                                                           \
     {                                                                                                        \
-        label_ "_R", need_, NULL, on_, help_ ", right", lost_                                                \
+        label_ "_R", need_, NULL, on_, help_, lost_                                                          \
     }
 
 const landmark_row landmark_rows[] = {
-    {"Po_L", NEED_ALWAYS, NULL, CASE_SKULL, "porion, roof of the ear canal, left", NULL},
-    {"Po_R", NEED_ALWAYS, NULL, CASE_SKULL, "porion, roof of the ear canal, right", NULL},
-    {"Or_L", NEED_ALWAYS, "Or_R", CASE_SKULL, "orbitale, lowest point of the orbit's rim, left", NULL},
-    {"Or_R", NEED_ALWAYS, "Or_L", CASE_SKULL, "orbitale, lowest point of the orbit's rim, right", NULL},
+    {"Po_L", NEED_ALWAYS, NULL, CASE_SKULL, "porion, roof of the ear canal", NULL},
+    {"Po_R", NEED_ALWAYS, NULL, CASE_SKULL, "porion, roof of the ear canal", NULL},
+    {"Or_L", NEED_ALWAYS, "Or_R", CASE_SKULL, "orbitale, lowest point of the orbit's rim", NULL},
+    {"Or_R", NEED_ALWAYS, "Or_L", CASE_SKULL, "orbitale, lowest point of the orbit's rim", NULL},
     {"N", NEED_ALWAYS, NULL, CASE_SKULL, "nasion", NULL},
     {"Me", NEED_ALWAYS, NULL, CASE_MANDIBLE, "menton, lowest point of the chin's bone", NULL},
     {"U1", NEED_ALWAYS, NULL, CASE_UPPER_TEETH, "edge of the upper central incisors", NULL},
@@ -26,32 +27,30 @@ const landmark_row landmark_rows[] = {
     BOTH("PR", NEED_LE_FORT_1, CASE_SKULL, "rim of the nose's opening just above its floor", NULL),
     BOTH("ZB", NEED_LE_FORT_1, CASE_SKULL, "buttress below the cheekbone", NULL),
     BOTH("PM", NEED_LE_FORT_1, CASE_SKULL, "groove between maxilla and pterygoid", NULL),
-    BOTH("U6", NEED_OPTIONAL, CASE_UPPER_TEETH, "mesiobuccal cusp of the upper first molar",
-         "the plane of the upper teeth is taken level with the Frankfort plane"),
-    BOTH("L6", NEED_OPTIONAL, CASE_LOWER_TEETH, "mesiobuccal cusp of the lower first molar",
-         "the plane of the lower teeth is taken level with the Frankfort plane"),
+    BOTH("U6", NEED_LE_FORT_1, CASE_UPPER_TEETH, "mesiobuccal cusp of the upper first molar", NULL),
+    BOTH("L6", NEED_BSSO | NEED_GENIOPLASTY, CASE_LOWER_TEETH, "mesiobuccal cusp of the lower first molar",
+         NULL),
     BOTH("U3", NEED_OPTIONAL, CASE_UPPER_TEETH, "cusp of the upper canine",
          "the height of the upper roots is estimated"),
     BOTH("L3", NEED_OPTIONAL, CASE_LOWER_TEETH, "cusp of the lower canine",
          "the height of the lower roots is estimated"),
-    BOTH("Co", NEED_BSSO, CASE_MANDIBLE, "condylion, top of the condyle", NULL),
-    BOTH("Go", NEED_BSSO, CASE_MANDIBLE, "gonion, the jaw's angle", NULL),
+    BOTH("Co", NEED_OPTIONAL, CASE_MANDIBLE, "condylion, top of the condyle", "the shift of the condyle"),
+    BOTH("Go", NEED_BSSO | NEED_GENIOPLASTY, CASE_MANDIBLE, "gonion, the jaw's angle", NULL),
     BOTH("RA", NEED_BSSO, CASE_MANDIBLE, "front border of the ramus at the height of the teeth", NULL),
     BOTH("RP", NEED_BSSO, CASE_MANDIBLE, "rear border of the ramus at the height of the teeth", NULL),
     BOTH("L7", NEED_BSSO, CASE_MANDIBLE, "rear corner of the last lower molar", NULL),
     BOTH("Li", NEED_OPTIONAL, CASE_MANDIBLE, "lingula", "its place is estimated from the ramus"),
-    BOTH("SN", NEED_OPTIONAL, CASE_MANDIBLE, "lowest point of the notch of the ramus",
-         "a check of the sagittal split"),
+    BOTH("SN", NEED_BSSO, CASE_MANDIBLE, "lowest point of the notch of the ramus", NULL),
     BOTH("Cor", NEED_OPTIONAL, CASE_MANDIBLE, "tip of the coronoid process", "a check of the sagittal split"),
     BOTH("MF", NEED_GENIOPLASTY, CASE_MANDIBLE, "mental foramen", NULL),
-    {"Pog", NEED_GENIOPLASTY, NULL, CASE_MANDIBLE, "pogonion, front of the chin's bone", NULL},
+    {"Pog", NEED_OPTIONAL, NULL, CASE_MANDIBLE, "pogonion, front of the chin's bone", "measures of the chin"},
     {"Gn", NEED_OPTIONAL, NULL, CASE_MANDIBLE, "gnathion", "measures of the bone's profile"},
     {"A", NEED_OPTIONAL, NULL, CASE_SKULL, "A point", "SNA and other measures of the bone's profile"},
     {"B", NEED_OPTIONAL, NULL, CASE_MANDIBLE, "B point", "SNB and other measures of the bone's profile"},
     {"S", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "sella", "SNA and SNB"},
     {"Ba", NEED_OPTIONAL, NULL, CASE_SKULL, "basion", "measures of the skull's base"},
-    {"ANS", NEED_OPTIONAL, NULL, CASE_SKULL, "anterior nasal spine", "heights of the face"},
-    {"PNS", NEED_OPTIONAL, NULL, CASE_SKULL, "posterior nasal spine", "the palatal plane"},
+    {"ANS", NEED_LE_FORT_1, NULL, CASE_SKULL, "anterior nasal spine", NULL},
+    {"PNS", NEED_LE_FORT_1, NULL, CASE_SKULL, "posterior nasal spine", NULL},
     {"U1_apex", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "root tip of the upper incisors",
      "the incisors' inclination"},
     BOTH("IOF", NEED_OPTIONAL, CASE_SKULL, "infraorbital foramen",
@@ -81,17 +80,7 @@ const int landmark_row_count = sizeof landmark_rows / sizeof landmark_rows[0];
 
 bool landmark_is_needed(const landmark_row *row, const case_file *c)
 {
-    switch (row->need) {
-    case NEED_ALWAYS:
-        return true;
-    case NEED_LE_FORT_1:
-        return case_file_cuts(c, CUT_LE_FORT_1);
-    case NEED_BSSO:
-        return case_file_cuts(c, CUT_BSSO);
-    case NEED_GENIOPLASTY:
-        return case_file_cuts(c, CUT_GENIOPLASTY);
-    case NEED_OPTIONAL:
-        return false;
-    }
-    return false;
+    return (row->need & NEED_ALWAYS) || ((row->need & NEED_LE_FORT_1) && case_file_cuts(c, CUT_LE_FORT_1)) ||
+           ((row->need & NEED_BSSO) && case_file_cuts(c, CUT_BSSO)) ||
+           ((row->need & NEED_GENIOPLASTY) && case_file_cuts(c, CUT_GENIOPLASTY));
 }

@@ -2,17 +2,17 @@
 #pragma once
 #include "app/case_file.h"
 
-typedef enum landmark_need {
-    NEED_ALWAYS,    /* no frame, no tissue without it */
-    NEED_LE_FORT_1, /* for the cut, if the case has it */
-    NEED_BSSO,
-    NEED_GENIOPLASTY,
-    NEED_OPTIONAL /* something is lost */
-} landmark_need;
+enum {                     /* bits */
+       NEED_OPTIONAL = 0,  /* something is lost */
+       NEED_ALWAYS = 1,    /* no frame or no tissue without it */
+       NEED_LE_FORT_1 = 2, /* for the cut, if the case has it */
+       NEED_BSSO = 4,
+       NEED_GENIOPLASTY = 8
+};
 
 typedef struct landmark_row {
     const char *label;
-    landmark_need need;
+    unsigned need;
     const char *instead; /* labels, separated by spaces, that together do as well; NULL: none */
     case_surface on;     /* the surface it lies on; CASE_SURFACE_COUNT: inside the head */
     const char *help;    /* what it is */

@@ -79,16 +79,16 @@ static void check_bound(const plan_file *p, const case_file *c, segment_id id, b
     const double rounding = 1e-6;
     double low = c->bounds[b][0], high = c->bounds[b][1];
     if (value >= low - rounding && value <= high + rounding) return;
-    bool excused = *p->override;
+    bool excused = *p->override, short_form = p->segment[id].form == FORM_SHORT;
+    const char *name = bound_default[b].name,
+               *source = c->bound_from_case[b] ? "set by the case" : bound_default[b].source;
     char where[64];
-    if (p->segment[id].form == FORM_SHORT)
-        snprintf(where, sizeof where, "%s", bound_default[b].name);
-    else
-        snprintf(where, sizeof where, "segments.%s", segment_name(id));
-    const char *source = c->bound_from_case[b] ? "set by the case" : bound_default[b].source;
+    snprintf(where, sizeof where, "%s%s", short_form ? "" : "segments.",
+             short_form ? name : segment_name(id));
     issue_add(issues, excused ? ISSUE_WARNING : ISSUE_ERROR, ERR_INFEASIBLE, p->path, p->segment[id].line,
-              where, "%s is %.4g, outside %g to %g (%s); %s%s", bound_default[b].name, value, low, high,
-              source, excused ? "accepted because: " : "move less, or say why in \"override\"",
+              where, "%s%sis %.4g, outside %g to %g: %s. %s%s", short_form ? "" : name, short_form ? "" : " ",
+              value, low, high, source,
+              excused ? "Accepted because: " : "Move less, or say why in \"override\"",
               excused ? p->override : "");
 }
 

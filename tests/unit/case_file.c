@@ -1,0 +1,169 @@
+/* Reading cases; each refusal with its message is under tests/cli. */
+#include "tests/check.h"
+#include "app/case_file.h"
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[64];
+
+static void put(const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fputs(text, f);
+    fclose(f);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "case-%ld", (long)getpid());
+    if (mkdir(folder, 0777)) return 1;
+    const char *const files[] = {"skin.ply", "skull.ply", "mandible.ply", "points.mrk.json"};
+    for (int i = 0; i < 4; i++) put(files[i], "x");
+    return 0;
+}
+
+static int drop_folder(void **state)
+{
+    (void)state;
+    char line[128];
+    snprintf(line, sizeof line, "rm -r %s", folder);
+    return system(line);
+}
+
+#define NEEDED                                                                                               \
+    "\"gnathos\": 1, \"surfaces\": {\"skin\": \"skin.ply\", \"skull\": \"skull.ply\", \"mandible\": "        \
+    "\"mandible.ply\"}, \"landmarks\": \"points.mrk.json\""
+
+static void absent_fields_take_the_defaults_of_their_stage(void **state)
+{
+    (void)state;
+    err e = {0};
+    case_file c;
+    put("case.json", "{" NEEDED "}");
+    assert_ok(case_file_load(folder, &c, &e));
+    tissue_params t = tissue_params_default();
+    osteotomy_params o = osteotomy_params_default();
+    assert_memory_equal(&c.tissue, &t, sizeof t);
+    assert_memory_equal(&c.cuts, &o, sizeof o);
+    assert_string_equal(c.name, folder);
+    assert_int_equal(c.frame, CASE_LPS);
+    assert_int_equal(c.osteotomy_count, 3);
+    assert_string_equal(c.surface[CASE_UPPER_TEETH], "");
+    char want[128];
+    snprintf(want, sizeof want, "%s/skull.ply", folder);
+    assert_string_equal(c.surface[CASE_SKULL], want);
+    for (int i = 0; i < BOUND_COUNT; i++) {
+        assert_near(c.bounds[i][0], bound_default[i].low, 0);
+        assert_near(c.bounds[i][1], bound_default[i].high, 0);
+        assert_false(c.bound_from_case[i]);
+    }
+}
+
+static void every_default_is_within_its_own_range(void **state)
+{
+    (void)state;
+    const field_table *t = case_fields();
+    int numbers = 0;
+    for (int i = 0; i < t->count; i++) {
+        const field *r = &t->row[i];
+        if (r->kind != FIELD_NUMBER) continue;
+        double v;
+        memcpy(&v, (const char *)t->defaults + r->offset, sizeof v);
+        if (!(v >= r->low && v <= r->high)) print_error("%s: %g\n", r->name, v);
+        assert_true(v >= r->low && v <= r->high);
+        numbers++;
+    }
+    assert_true(numbers > 20);
+}
+
+static void given_fields_arrive_where_they_belong(void **state)
+{
+    (void)state;
+    err e = {0};
+    case_file c;
+    put("case.json",
+        "{" NEEDED ", \"name\": \"A B\", \"frame\": \"RAS\", \"//\": [1], \"osteotomies\": [\"bsso\"],\n"
+        "\"tissue\": {\"// why\": \"thin\", \"element_mm\": 2.5, \"poisson\": 0.3}, \"cuts\": {\"kerf_mm\": "
+        "1},\n"
+        "\"bounds\": {\"chin_advance_mm\": [-1, 2]}}");
+    char path[128];
+    snprintf(path, sizeof path, "%s/case.json", folder);
+    assert_ok(case_file_load(path, &c, &e));
+    assert_string_equal(c.name, "A B");
+    assert_string_equal(c.folder, folder);
+    assert_int_equal(case_file_space(&c), MESH_SPACE_RAS);
+    assert_near(c.tissue.element_mm, 2.5, 0);
+    assert_near(c.material.poisson, 0.3, 0);
+    assert_near(c.cuts.kerf_mm, 1, 0);
+    assert_near(c.bounds[BOUND_CHIN_ADVANCE][0], -1, 0);
+    assert_near(c.bounds[BOUND_CHIN_ADVANCE][1], 2, 0);
+    assert_true(c.bound_from_case[BOUND_CHIN_ADVANCE]);
+    assert_false(c.bound_from_case[BOUND_CHIN_LIFT]);
+    assert_true(case_file_frees(&c, SEGMENT_DISTAL));
+    assert_true(case_file_frees(&c, SEGMENT_PROXIMAL_LEFT));
+    assert_false(case_file_frees(&c, SEGMENT_MAXILLA));
+    assert_false(case_file_frees(&c, SEGMENT_CHIN));
+}
+
+static void a_plane_of_ones_own_frees_its_segment(void **state)
+{
+    (void)state;
+    err e = {0};
+    case_file c;
+    put("planes.mrk.json", "{}");
+    put("case.json", "{" NEEDED ", \"planes\": \"planes.mrk.json\","
+                     "\"osteotomies\": [{\"segment\": \"maxilla\", \"plane\": \"mine\"}]}");
+    assert_ok(case_file_load(folder, &c, &e));
+    assert_int_equal(c.osteotomy_count, 1);
+    assert_int_equal(c.osteotomy[0].cut, CUT_USER);
+    assert_int_equal(c.osteotomy[0].segment, SEGMENT_MAXILLA);
+    assert_string_equal(c.osteotomy[0].plane, "mine");
+    assert_true(case_file_frees(&c, SEGMENT_MAXILLA));
+    assert_false(case_file_frees(&c, SEGMENT_DISTAL));
+}
+
+static void everything_wrong_is_named_by_line(void **state)
+{
+    (void)state;
+    issue_list issues = {0};
+    case_file c;
+    err e = {0};
+    put("case.json",
+        "{" NEEDED
+        ",\n\"bounds\": {\"chin_lift_mm\": [5, -5]},\n\"tissue\": {\"poisson\": 1},\n\"frame\": 3}");
+    assert_false(case_file_read(folder, &c, &issues));
+    assert_int_equal(issue_count(&issues, ISSUE_ERROR), 3);
+    for (int i = 0; i < 3; i++) assert_int_equal(issues.item[i].line, i + 2);
+    assert_false(issue_none_is_error(&issues, &e));
+    assert_non_null(strstr(e.text, "case.json:2: bounds.chin_lift_mm: "));
+    assert_near(c.material.poisson, 0.45, 0); /* a wrong field keeps its default */
+    issue_list_free(&issues);
+}
+
+static void a_refused_case_leaves_the_output_alone(void **state)
+{
+    (void)state;
+    err e = {0};
+    case_file c = {.name = "old"};
+    put("case.json", "{\"gnathos\": 1}");
+    assert_refused(case_file_load(folder, &c, &e), ERR_INPUT);
+    assert_string_equal(c.name, "old");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(absent_fields_take_the_defaults_of_their_stage),
+        cmocka_unit_test(every_default_is_within_its_own_range),
+        cmocka_unit_test(given_fields_arrive_where_they_belong),
+        cmocka_unit_test(a_plane_of_ones_own_frees_its_segment),
+        cmocka_unit_test(everything_wrong_is_named_by_line),
+        cmocka_unit_test(a_refused_case_leaves_the_output_alone),
+    };
+    return cmocka_run_group_tests(tests, make_folder, drop_folder);
+}
