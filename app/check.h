@@ -2,7 +2,7 @@
 #pragma once
 #include "app/case_file.h"
 #include "geometry/landmarks.h"
-#include <jansson.h>
+#include "geometry/json_file.h"
 
 typedef struct check_found {
     surface mesh[CASE_SURFACE_COUNT]; /* vertex_count 0: not read */

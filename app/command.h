@@ -26,7 +26,7 @@
 #pragma once
 #include "app/issue.h"
 #include <argp.h>
-#include <jansson.h>
+#include "geometry/json_file.h"
 
 typedef enum command_progress {
     PROGRESS_AUTO,

@@ -3,7 +3,7 @@
 #include "app/anatomy.h"
 #include "app/content_hash.h"
 #include "geometry/tissue.h"
-#include <jansson.h>
+#include "geometry/json_file.h"
 
 typedef struct prepared {
     char hash[HASH_TEXT_SIZE];

@@ -2,7 +2,7 @@
 #pragma once
 #include "app/anatomy.h"
 #include "geometry/tissue.h"
-#include <jansson.h>
+#include "geometry/json_file.h"
 
 /* A new object. */
 json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s, double tissue_s);
