@@ -1,8 +1,8 @@
 /* assemble: energy, forces and the sparse stiffness of the whole tissue.
  *
- * The pattern is fixed by mesh and boundary numbering. Elements are evaluated in parallel into their own slots; every
- * nodal force, node-pair block and matrix entry is then gathered by its owner in element order, so results do not
- * depend on the number of threads. Memory: about 1 kB per tet. */
+ * The pattern is fixed by mesh and boundary numbering. Elements are evaluated in parallel into their own
+ * slots; every nodal force, node-pair block and matrix entry is then gathered by its owner in element order,
+ * so results do not depend on the number of threads. Memory: about 1 kB per tet. */
 #pragma once
 #include "sim/boundary.h"
 #include "sim/element.h"
@@ -12,8 +12,8 @@ extern "C" {
 
 typedef struct assembly {
     int32_t node_count, unknown_count, tet_count;
-    const int32_t *tet;     /* borrowed from the mesh */
-    elements el;            /* owned */
+    const int32_t *tet; /* borrowed from the mesh */
+    elements el;        /* owned */
     /* elements around each node: source = 4 tet + local node */
     int32_t *node_start, *node_source;
     /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed) */
@@ -29,11 +29,13 @@ typedef struct assembly {
     double *element_energy, *element_force, *element_block, *edge_block;
 } assembly;
 
-/* Takes *el over (leaves it empty) on success. Refuses (ERR_RESOURCE) a mesh too large for its 32-bit numbers. */
+/* Takes *el over (leaves it empty) on success. Refuses (ERR_RESOURCE) a mesh too large for its 32-bit
+ * numbers. */
 bool assembly_make(const tetmesh *m, elements *el, const boundary *b, assembly *out, err *e) MUST_CHECK;
 void assembly_free(assembly *a);
 
-/* Energy in uJ at x[3*node_count]; HUGE_VAL where a material has none. force[3*node_count] (may be NULL) in mN. */
+/* Energy in uJ at x[3*node_count]; HUGE_VAL where a material has none. force[3*node_count] (may be NULL) in
+ * mN. */
 double assembly_energy(assembly *a, const double *x, double *force);
 /* Fills edge_block at x. Not to be called where the energy is infinite. */
 void assembly_stiffness(assembly *a, const double *x, projection how);
@@ -48,9 +50,9 @@ double assembly_force_noise(const assembly *a, const double *x);
 double assembly_energy_noise(const assembly *a, const double *x);
 
 typedef struct deformation_extremes {
-    double min_j, max_stretch;  /* smallest det F, largest singular value of F */
+    double min_j, max_stretch; /* smallest det F, largest singular value of F */
     int32_t min_j_tet, max_stretch_tet;
-    int32_t inverted_count;     /* tets with det F <= 0 */
+    int32_t inverted_count; /* tets with det F <= 0 */
 } deformation_extremes;
 
 /* with_stretch false: max_stretch is left 0 (it costs a decomposition per tet). */

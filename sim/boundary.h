@@ -4,11 +4,11 @@
  *   free     three unknowns along x, y, z; origin = rest position
  *   tied     none; origin = T X with T the motion of its segment
  *   sliding  two, across the normal turned by T; origin = T X, so the node stays on the moved tangent plane
- *   pair     five for two nodes: one shared, along the pair normal, and two each across it. The lips keep in touch and
- *            slide along each other without friction; they cannot part: opening lips needs contact instead. The
- *            directions turn with the guide.
- * The guide is the rigid motion that fits the prescribed nodes best, and exactly theirs where they all share one. It
- * carries what the bones do not: origin of pairs and the first guess for free nodes. */
+ *   pair     five for two nodes: one shared, along the pair normal, and two each across it. The lips keep in
+ * touch and slide along each other without friction; they cannot part: opening lips needs contact instead.
+ * The directions turn with the guide. The guide is the rigid motion that fits the prescribed nodes best, and
+ * exactly theirs where they all share one. It carries what the bones do not: origin of pairs and the first
+ * guess for free nodes. */
 #pragma once
 #include "geometry/attach_map.h"
 #include "geometry/rigid.h"
@@ -27,9 +27,9 @@ typedef struct boundary {
     rigid guide;
 } boundary;
 
-/* Unknowns of a map with all bones at rest. Refuses (ERR_INPUT) an attachment map that contradicts itself or the mesh;
- * (ERR_GEOMETRY) nodes in no tet and any part of the mesh that its tied and sliding nodes do not hold in place: each
- * is named by its size and position. */
+/* Unknowns of a map with all bones at rest. Refuses (ERR_INPUT) an attachment map that contradicts itself or
+ * the mesh; (ERR_GEOMETRY) nodes in no tet and any part of the mesh that its tied and sliding nodes do not
+ * hold in place: each is named by its size and position. */
 bool boundary_make(const tetmesh *m, const attach_map *a, boundary *out, err *e) MUST_CHECK;
 void boundary_free(boundary *b);
 

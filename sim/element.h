@@ -1,5 +1,5 @@
-/* element: linear tetrahedra. x_e are four node positions, force is the derivative of the energy (mN), so that
- * equilibrium means zero and a bone pulling the tissue shows the force it needs. */
+/* element: linear tetrahedra. x_e are four node positions, force is the derivative of the energy (mN), so
+ * that equilibrium means zero and a bone pulling the tissue shows the force it needs. */
 #pragma once
 #include "geometry/tetmesh.h"
 #include "sim/material.h"
@@ -9,14 +9,15 @@ extern "C" {
 
 typedef struct elements {
     int32_t count;
-    double *gradient;      /* [12*count] shape function gradients at rest, 1/mm */
-    double *volume;        /* [count] mm3 at rest */
-    int32_t *material;     /* [count] number in `materials` */
+    double *gradient;  /* [12*count] shape function gradients at rest, 1/mm */
+    double *volume;    /* [count] mm3 at rest */
+    int32_t *material; /* [count] number in `materials` */
     int32_t material_count;
     struct material *materials;
 } elements;
 
-/* Refuses (ERR_GEOMETRY) what tetmesh_check refuses and (ERR_INPUT) a region without a material or with two. */
+/* Refuses (ERR_GEOMETRY) what tetmesh_check refuses and (ERR_INPUT) a region without a material or with two.
+ */
 bool elements_make(const tetmesh *m, const region_material *table, int32_t table_count, elements *out,
                    err *e) MUST_CHECK;
 void elements_free(elements *el);
@@ -26,7 +27,8 @@ enum { ELEMENT_PAIRS = 10 };
 extern const int element_pair[ELEMENT_PAIRS][2];
 
 void element_gradient_F(const double gradient[12], const double x_e[12], double F[9]);
-/* Energy in uJ; force[12] (may be NULL) in mN. Returns HUGE_VAL, force zero, where the material has no energy. */
+/* Energy in uJ; force[12] (may be NULL) in mN. Returns HUGE_VAL, force zero, where the material has no
+ * energy. */
 double element_energy(const material *m, const double gradient[12], double volume, const double x_e[12],
                       double *force);
 /* Stiffness blocks, block[9*p] = d force_i / d x_j for pair p = (i, j), row-major, mN/mm. */

@@ -1,9 +1,9 @@
 /* material: isotropic elastic energies of one deformation gradient.
  *
  * Every model is a function psi(I, J) of I = |F|^2 and J = det F, given as its value and first and second
- * derivatives; stress, stiffness and its eigenvectors follow from those alone. A new model is one more case in
- * material_terms_at. F, P are row-major 3x3; a 9x9 Hessian is row-major over the same order. Stress in kPa, energy
- * density in kPa (= uJ/mm^3), zero at F = I and at every rotation. */
+ * derivatives; stress, stiffness and its eigenvectors follow from those alone. A new model is one more case
+ * in material_terms_at. F, P are row-major 3x3; a 9x9 Hessian is row-major over the same order. Stress in
+ * kPa, energy density in kPa (= uJ/mm^3), zero at F = I and at every rotation. */
 #pragma once
 #include "geometry/err.h"
 #include <stdint.h>
@@ -12,15 +12,16 @@ extern "C" {
 #endif
 
 typedef enum material_model {
-    MATERIAL_SNH_LOG, /* Stable Neo-Hookean with the logarithm: Smith, de Goes, Kim 2018, eq. 14; the default */
+    MATERIAL_SNH_LOG, /* Stable Neo-Hookean with the logarithm: Smith, de Goes, Kim 2018, eq. 14; default */
     MATERIAL_SNH,     /* the same without the logarithm */
     MATERIAL_NH_LN,   /* mu/2 (I-3) - mu ln J + lambda/2 (ln J)^2; infinite for J <= 0 */
     MATERIAL_NH_ISO,  /* mu/2 (J^(-2/3) I - 3) + K/2 (J-1)^2; infinite for J <= 0 */
     MATERIAL_MODEL_COUNT
 } material_model;
 
-/* mu and lambda are the constants of the model's own formula, not always those of Lame: for the logarithmic form
- * mu = 4/3 mu_L, lambda = lambda_L + 5/6 mu_L (section 3.4 there), so that small strains obey young_kpa, poisson. */
+/* mu and lambda are the constants of the model's own formula, not always those of Lame: for the logarithmic
+ * form mu = 4/3 mu_L, lambda = lambda_L + 5/6 mu_L (section 3.4 there), so that small strains obey young_kpa,
+ * poisson. */
 typedef struct material {
     material_model model;
     double young_kpa, poisson;
@@ -28,8 +29,8 @@ typedef struct material {
 } material;
 
 typedef struct material_terms {
-    double psi;                       /* HUGE_VAL where the model has no energy (the rest is then zero) */
-    double psi_i, psi_j;              /* d psi / d I, d psi / d J */
+    double psi;          /* HUGE_VAL where the model has no energy (the rest is then zero) */
+    double psi_i, psi_j; /* d psi / d I, d psi / d J */
     double psi_ii, psi_ij, psi_jj;
 } material_terms;
 
@@ -47,10 +48,14 @@ void material_stress(const material *m, const double F[9], double P[9]);
 void material_hessian(const material *m, const double F[9], double H[81]);
 
 /* What is done about negative eigenvalues of the Hessian. */
-typedef enum projection { PROJECTION_NONE, PROJECTION_CLAMP /* to zero */, PROJECTION_ABS /* to |.| */ } projection;
+typedef enum projection {
+    PROJECTION_NONE,
+    PROJECTION_CLAMP /* to zero */,
+    PROJECTION_ABS /* to |.| */
+} projection;
 void material_hessian_projected(const material *m, const double F[9], projection how, double H[81]);
-/* The negative eigenvalues and their unit eigenvectors (row-major 3x3), from the analytic eigensystem (section 4.6
- * there, for any psi(I, J)). Returns how many. */
+/* The negative eigenvalues and their unit eigenvectors (row-major 3x3), from the analytic eigensystem
+ * (section 4.6 there, for any psi(I, J)). Returns how many. */
 int material_negative_modes(const material_terms *t, const double F[9], double value[9], double mode[9][9]);
 
 /* Which material a tissue region has. */

@@ -1,12 +1,13 @@
 /* newton: the shape of the tissue in equilibrium once the bones have moved.
  *
- * Minimises the elastic energy over the unknowns of `boundary`. Project-on-demand: the true Hessian is factorised; only
- * where it is not positive definite are its element blocks clamped, and only where that fails too a multiple of the
- * identity is added. Between factorisations the old factor is improved by the last steps (L-BFGS: Nocedal 1980, with
- * the factor as initial matrix) while that is the cheaper way down. Steps are halved until the energy falls enough
- * (Armijo); where the fall is below rounding, until the residual falls. A tet may invert on the way and in the result:
- * the Stable Neo-Hookean energies allow it, so it is counted, not hidden. Several equilibria can exist; the one reached
- * depends on the load path, which is recorded. */
+ * Minimises the elastic energy over the unknowns of `boundary`. Project-on-demand: the true Hessian is
+ * factorised; only where it is not positive definite are its element blocks clamped, and only where that
+ * fails too a multiple of the identity is added. Between factorisations the old factor is improved by the
+ * last steps (L-BFGS: Nocedal 1980, with the factor as initial matrix) while that is the cheaper way down.
+ * Steps are halved until the energy falls enough (Armijo); where the fall is below rounding, until the
+ * residual falls. A tet may invert on the way and in the result: the Stable Neo-Hookean energies allow it, so
+ * it is counted, not hidden. Several equilibria can exist; the one reached depends on the load path, which is
+ * recorded. */
 #pragma once
 #include "sim/assemble.h"
 #ifdef __cplusplus
@@ -16,9 +17,9 @@ extern "C" {
 typedef enum solve_outcome {
     SOLVED,
     STOPPED_MAX_ITERATIONS,
-    STOPPED_LINE_SEARCH, /* no step lowers the energy */
-    STOPPED_NOT_FINITE,  /* the start has no energy: a tet inverted in a model that forbids it */
-    STOPPED_SINGULAR,    /* no shift makes the matrix positive definite */
+    STOPPED_LINE_SEARCH,  /* no step lowers the energy */
+    STOPPED_NOT_FINITE,   /* the start has no energy: a tet inverted in a model that forbids it */
+    STOPPED_SINGULAR,     /* no shift makes the matrix positive definite */
     STOPPED_MAX_HALVINGS, /* the load step became too small */
     STOPPED_INTERRUPTED
 } solve_outcome;
@@ -36,9 +37,9 @@ typedef struct newton_record {
     int iteration;      /* from 1 at each load; 0: the start */
     double residual_mn; /* after the step: norm of the force on the unknowns */
     double tolerance_mn, energy_uj;
-    double step;        /* fraction of the direction taken */
+    double step; /* fraction of the direction taken */
     hessian_kind hessian;
-    double factor_s;    /* wall time of factorising for this step */
+    double factor_s; /* wall time of factorising for this step */
     double min_j;
     int32_t inverted_count;
 } newton_record;
@@ -49,17 +50,17 @@ typedef enum predictor {
 } predictor;
 
 typedef struct solve_params {
-    int load_steps;             /* >= 1 */
-    int max_halvings;           /* failed loads that are tried again at half the step, in all; 0: none */
-    int max_iterations;         /* at one load */
-    int max_step_cuts;          /* halvings within one line search */
-    double rel_tol;             /* of the residual with the bones moved and the free tissue carried rigidly */
+    int load_steps;     /* >= 1 */
+    int max_halvings;   /* failed loads that are tried again at half the step, in all; 0: none */
+    int max_iterations; /* at one load */
+    int max_step_cuts;  /* halvings within one line search */
+    double rel_tol;     /* of the residual with the bones moved and the free tissue carried rigidly */
     double intermediate_rel_tol; /* the same before the last load */
-    double max_step_mm;         /* longest move of an unknown in one iteration */
+    double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
-    enum projection projection; /* CLAMP or ABS */
-    bool reuse_factor;          /* false: factorise in each iteration */
-    int blas_threads;           /* 1: the same bits whatever the machine is doing; see linear.h */
+    enum projection projection;         /* CLAMP or ABS */
+    bool reuse_factor;                  /* false: factorise in each iteration */
+    int blas_threads;                   /* 1: the same bits whatever the machine is doing; see linear.h */
     bool (*interrupted)(void *context); /* NULL or asked in each iteration */
     void (*progress)(const newton_record *record, void *context); /* NULL or told after each iteration */
     void *context;
@@ -78,34 +79,35 @@ typedef struct equilibrium_problem {
 
 typedef struct equilibrium {
     solve_outcome outcome;
-    double load_reached;         /* last load solved; 1 exactly when SOLVED */
+    double load_reached; /* last load solved; 1 exactly when SOLVED */
     int32_t node_count;
-    double *xyz;                 /* [3*node_count] mm; of the last iterate where not SOLVED */
+    double *xyz; /* [3*node_count] mm; of the last iterate where not SOLVED */
     int32_t record_count;
-    newton_record *record;       /* [record_count] every iteration of every load, failed ones too */
+    newton_record *record; /* [record_count] every iteration of every load, failed ones too */
     int iterations, factorisations, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
     double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
-    double imbalance;            /* |sum of these| over the sum of their node forces' norms */
+    double imbalance;                          /* |sum of these| over the sum of their node forces' norms */
     double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */
     int64_t unknown_count, matrix_entries, factor_entries;
     double factor_flops, memory_peak_mb;
 } equilibrium;
 
-/* Refuses what elements_make, boundary_make, assembly_make and linear_create refuse, (ERR_INPUT) parameters out of
- * range and non-finite motions. A solve that fails is not a refusal: it returns true, and outcome says why. */
+/* Refuses what elements_make, boundary_make, assembly_make and linear_create refuse, (ERR_INPUT) parameters
+ * out of range and non-finite motions. A solve that fails is not a refusal: it returns true, and outcome says
+ * why. */
 bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out,
                        err *e) MUST_CHECK;
 void equilibrium_free(equilibrium *q);
 
-/* The same in two parts: everything that does not depend on the motion is kept for the next plan. mesh and attach are
- * borrowed until solver_destroy; motion and start_xyz are not looked at. */
+/* The same in two parts: everything that does not depend on the motion is kept for the next plan. mesh and
+ * attach are borrowed until solver_destroy; motion and start_xyz are not looked at. */
 typedef struct solver solver;
 bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e) MUST_CHECK;
 void solver_destroy(solver **t);
-bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
-                  equilibrium *out, err *e) MUST_CHECK;
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz,
+                  const solve_params *params, equilibrium *out, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -4,8 +4,8 @@
  *   pitch > 0  turns the front down  (about left; opens the jaw)
  *   yaw   > 0  turns the front to the patient's left (about up)
  *   roll  > 0  turns the left side down (about posterior)
- * applied in the order pitch, roll, yaw about one pivot, all three axes fixed to the head; translation comes after.
- * Degrees and mm: this is where the plan's numbers end. Bounds are checked elsewhere. */
+ * applied in the order pitch, roll, yaw about one pivot, all three axes fixed to the head; translation comes
+ * after. Degrees and mm: this is where the plan's numbers end. Bounds are checked elsewhere. */
 #pragma once
 #include "geometry/frame.h"
 #include "geometry/segments.h"
@@ -23,37 +23,38 @@ typedef struct segment_move {
     move_kind kind;
     double translate_mm[3]; /* along the file's axes, LPS */
     double pitch_deg, yaw_deg, roll_deg;
-    double pivot_mm[3];     /* LPS */
-    rigid motion;           /* of MOVE_RIGID */
+    double pivot_mm[3]; /* LPS */
+    rigid motion;       /* of MOVE_RIGID */
 } segment_move;
 
 /* The whole mandible about the condyles (q_m). Zero: the jaw stays closed. */
 typedef struct jaw_motion {
-    double open_deg;      /* about the axis through both condyles */
-    double yaw_deg;       /* about the head's vertical */
-    double roll_deg;      /* about the head's front-back axis */
-    double protrude_mm;   /* forwards along the condylar path */
+    double open_deg;       /* about the axis through both condyles */
+    double yaw_deg;        /* about the head's vertical */
+    double roll_deg;       /* about the head's front-back axis */
+    double protrude_mm;    /* forwards along the condylar path */
     double path_slope_deg; /* of that path below the Frankfort horizontal */
 } jaw_motion;
 
 typedef struct rig_controls {
     /* short form (q_o): along the frame's anterior and up directions */
     double maxilla_advance_mm, maxilla_impaction_mm;
-    double mandible_advance_mm; /* of the distal segment */
-    double chin_advance_mm;     /* relative to the distal segment */
+    double mandible_advance_mm;       /* of the distal segment */
+    double chin_advance_mm;           /* relative to the distal segment */
     segment_move move[SEGMENT_COUNT]; /* of the chin: relative to the distal segment, in rest position */
     jaw_motion jaw;
 } rig_controls;
 
 rig_controls rig_controls_default(void); /* nothing moves */
 
-/* Rest to planned position of every segment. The chin rides on the distal segment: its own move first, then the distal
- * one's. A proximal segment that is not named stays, so its condyle keeps its seat. The jaw motion comes last and carries
- * distal, chin and both proximal segments together. condyle: left, right, in mm LPS; needed (else NULL) by a jaw motion.
- * Refuses (ERR_INPUT) numbers that are not finite, a moved cranium, both forms for one segment, a jaw motion without
- * condyles or with condyles less than 40 mm apart or on the wrong sides. */
-bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3], rigid motion[SEGMENT_COUNT],
-                err *e) MUST_CHECK;
+/* Rest to planned position of every segment. The chin rides on the distal segment: its own move first, then
+ * the distal one's. A proximal segment that is not named stays, so its condyle keeps its seat. The jaw motion
+ * comes last and carries distal, chin and both proximal segments together. condyle: left, right, in mm LPS;
+ * needed (else NULL) by a jaw motion. Refuses (ERR_INPUT) numbers that are not finite, a moved cranium, both
+ * forms for one segment, a jaw motion without condyles or with condyles less than 40 mm apart or on the wrong
+ * sides. */
+bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3],
+                rigid motion[SEGMENT_COUNT], err *e) MUST_CHECK;
 
 /* One move of a segment, as above. */
 rigid rig_segment_motion(const segment_move *m, const head_frame *f);

@@ -11,7 +11,8 @@
 enum { ELEMENT_GRAIN = 256, NODE_GRAIN = 512, EDGE_GRAIN = 1024 };
 
 /* order[] = 0..count-1 sorted by key, stable; keys in [0, key_count). */
-static void stable_sort(const int32_t *key, int64_t count, int32_t key_count, const int32_t *in, int32_t *order)
+static void stable_sort(const int32_t *key, int64_t count, int32_t key_count, const int32_t *in,
+                        int32_t *order)
 {
     int64_t *start = NEW_ARRAY(int64_t, (size_t)key_count + 1);
     for (int64_t i = 0; i < count; i++) start[key[i] + 1]++;
@@ -80,12 +81,14 @@ static void make_edges(assembly *a)
 static void make_pattern(assembly *a, const boundary *b)
 {
     int64_t blocks = 9 * (int64_t)a->edge_count, claims = 0;
-    int32_t *block = NEW_ARRAY(int32_t, blocks), *row = NEW_ARRAY(int32_t, blocks), *column = NEW_ARRAY(int32_t, blocks);
+    int32_t *block = NEW_ARRAY(int32_t, blocks), *row = NEW_ARRAY(int32_t, blocks),
+            *column = NEW_ARRAY(int32_t, blocks);
     a->slot = NEW_ARRAY(int32_t, blocks);
     for (int64_t i = 0; i < blocks; i++) {
         a->slot[i] = -1;
         const int32_t *edge = a->edge_node + 2 * (i / 9);
-        int32_t p = b->unknown[3 * (size_t)edge[0] + (i % 9) / 3], q = b->unknown[3 * (size_t)edge[1] + i % 3];
+        int32_t p = b->unknown[3 * (size_t)edge[0] + (i % 9) / 3],
+                q = b->unknown[3 * (size_t)edge[1] + i % 3];
         if (p < 0 || q < 0 || (edge[0] == edge[1] && p < q)) continue;
         block[claims] = (int32_t)i;
         row[claims] = p > q ? p : q;
@@ -128,7 +131,8 @@ bool assembly_make(const tetmesh *m, elements *el, const boundary *b, assembly *
     assert(el->count == m->tet_count && b->node_count == m->vertex_count);
     /* 2 * 10 * tets and 9 * edges must fit 31 bits; a tet mesh has fewer than 8 edges and nodes per tet */
     if (m->tet_count > INT32_MAX / 72)
-        return err_set(e, ERR_RESOURCE, "%d tets are too many, the limit is %d", m->tet_count, INT32_MAX / 72);
+        return err_set(e, ERR_RESOURCE, "%d tets are too many, the limit is %d", m->tet_count,
+                       INT32_MAX / 72);
     assembly a = {.node_count = m->vertex_count,
                   .unknown_count = b->unknown_count,
                   .tet_count = m->tet_count,
@@ -186,8 +190,9 @@ static void energy_body(int64_t begin, int64_t end, void *context)
     for (int64_t t = begin; t < end; t++) {
         double x_e[12];
         element_nodes(a, t, job->x, x_e);
-        a->element_energy[t] = element_energy(&a->el.materials[a->el.material[t]], a->el.gradient + 12 * t,
-                                              a->el.volume[t], x_e, job->force ? a->element_force + 12 * t : NULL);
+        a->element_energy[t] =
+            element_energy(&a->el.materials[a->el.material[t]], a->el.gradient + 12 * t, a->el.volume[t], x_e,
+                           job->force ? a->element_force + 12 * t : NULL);
     }
 }
 
@@ -225,8 +230,8 @@ static void stiffness_body(int64_t begin, int64_t end, void *context)
     for (int64_t t = begin; t < end; t++) {
         double x_e[12];
         element_nodes(a, t, job->x, x_e);
-        element_stiffness(&a->el.materials[a->el.material[t]], a->el.gradient + 12 * t, a->el.volume[t], x_e, job->how,
-                          a->element_block + 9 * ELEMENT_PAIRS * t);
+        element_stiffness(&a->el.materials[a->el.material[t]], a->el.gradient + 12 * t, a->el.volume[t], x_e,
+                          job->how, a->element_block + 9 * ELEMENT_PAIRS * t);
     }
 }
 
@@ -315,7 +320,8 @@ void assembly_multiply(const assembly *a, const double *d, double *out)
 }
 
 /* Rounding of F: coordinates lose eps |x|, divided by the size of the tet. */
-static double element_noise(const assembly *a, int32_t t, const double *x, double *stiffness, double *steepest)
+static double element_noise(const assembly *a, int32_t t, const double *x, double *stiffness,
+                            double *steepest)
 {
     double reach = 0, g = 0, x_e[12];
     element_nodes(a, t, x, x_e);

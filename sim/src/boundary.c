@@ -7,17 +7,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_unit(const double n[3]) { return fabs(vec_norm(n) - 1) < 1e-6; }
+static bool is_unit(const double n[3])
+{
+    return fabs(vec_norm(n) - 1) < 1e-6;
+}
 
 static bool check_map(const tetmesh *m, const attach_map *a, err *e)
 {
     if (a->node_count != m->vertex_count)
-        return err_set(e, ERR_INPUT, "the attachment map has %d nodes, the mesh %d", a->node_count, m->vertex_count);
+        return err_set(e, ERR_INPUT, "the attachment map has %d nodes, the mesh %d", a->node_count,
+                       m->vertex_count);
     for (int32_t v = 0; v < a->node_count; v++) {
-        if (a->kind[v] > NODE_SLIDING) return err_set(e, ERR_INPUT, "node %d has no known kind (%d)", v, a->kind[v]);
+        if (a->kind[v] > NODE_SLIDING)
+            return err_set(e, ERR_INPUT, "node %d has no known kind (%d)", v, a->kind[v]);
         if (a->kind[v] == NODE_FREE) continue;
         if (a->segment[v] < 0 || a->segment[v] >= SEGMENT_COUNT)
-            return err_set(e, ERR_INPUT, "node %d hangs on segment %d, which does not exist", v, a->segment[v]);
+            return err_set(e, ERR_INPUT, "node %d hangs on segment %d, which does not exist", v,
+                           a->segment[v]);
         if (a->kind[v] == NODE_SLIDING && !is_unit(a->normal + 3 * (size_t)v))
             return err_set(e, ERR_INPUT, "the normal of sliding node %d is not of length 1", v);
     }
@@ -25,13 +31,16 @@ static bool check_map(const tetmesh *m, const attach_map *a, err *e)
     bool ok = true;
     for (int32_t i = 0; ok && i < 2 * a->pair_count; i++) {
         int32_t v = a->pair[i];
-        if (v < 0 || v >= a->node_count) ok = err_set(e, ERR_INPUT, "pair %d names node %d, out of range", i / 2, v);
+        if (v < 0 || v >= a->node_count)
+            ok = err_set(e, ERR_INPUT, "pair %d names node %d, out of range", i / 2, v);
         else if (a->kind[v] != NODE_FREE)
             ok = err_set(e, ERR_INPUT, "node %d is in pair %d but hangs on bone too", v, i / 2);
-        else if (seen[v]) ok = err_set(e, ERR_INPUT, "node %d is in two pairs", v);
+        else if (seen[v])
+            ok = err_set(e, ERR_INPUT, "node %d is in two pairs", v);
         else if (!is_unit(a->pair_normal + 3 * (size_t)(i / 2)))
             ok = err_set(e, ERR_INPUT, "the normal of pair %d is not of length 1", i / 2);
-        else seen[v] = 1 + i / 2;
+        else
+            seen[v] = 1 + i / 2;
     }
     for (int32_t i = 0; ok && i < m->tet_count; i++)
         for (int k = 0; ok && k < 6; k++) {
@@ -82,9 +91,11 @@ bool boundary_make(const tetmesh *m, const attach_map *a, boundary *out, err *e)
     for (int32_t v = 0; v < n; v++)
         for (int k = 0; k < 3; k++) {
             bool prescribed = a->kind[v] == NODE_TIED || (a->kind[v] == NODE_SLIDING && k == 0);
-            bool shared = k == 0 && partner[v] >= 0 && partner[v] < v; /* numbered at the other node already */
-            b.unknown[3 * (size_t)v + k] = prescribed ? -1 : shared ? b.unknown[3 * (size_t)partner[v]]
-                                                                    : b.unknown_count++;
+            bool shared =
+                k == 0 && partner[v] >= 0 && partner[v] < v; /* numbered at the other node already */
+            b.unknown[3 * (size_t)v + k] = prescribed ? -1
+                                           : shared   ? b.unknown[3 * (size_t)partner[v]]
+                                                      : b.unknown_count++;
         }
     free(partner);
     rigid rest[SEGMENT_COUNT];
@@ -141,8 +152,10 @@ void boundary_move(boundary *b, const tetmesh *m, const attach_map *a, const rig
         const double *X = m->xyz + 3 * (size_t)v;
         double *origin = b->origin + 3 * (size_t)v, *basis = b->basis + 9 * (size_t)v;
         memcpy(basis, unit, sizeof unit);
-        if (a->kind[v] == NODE_FREE) vec_copy(X, origin);
-        else rigid_apply(&motion[a->segment[v]], X, origin);
+        if (a->kind[v] == NODE_FREE)
+            vec_copy(X, origin);
+        else
+            rigid_apply(&motion[a->segment[v]], X, origin);
         if (a->kind[v] != NODE_SLIDING) continue;
         frame_about(a->normal + 3 * (size_t)v, basis);
         for (int k = 0; k < 3; k++) rigid_rotate(&motion[a->segment[v]], basis + 3 * k, basis + 3 * k);
@@ -164,8 +177,10 @@ void boundary_place(const boundary *b, const double *z, double *x)
         for (int k = 0; k < 3; k++) {
             int32_t q = b->unknown[3 * (size_t)v + k];
             if (q < 0) continue;
-            if (b->plain[v]) p[k] += z[q];
-            else vec_axpy(p, z[q], b->basis + 9 * (size_t)v + 3 * k, p);
+            if (b->plain[v])
+                p[k] += z[q];
+            else
+                vec_axpy(p, z[q], b->basis + 9 * (size_t)v + 3 * k, p);
         }
     }
 }
@@ -184,7 +199,8 @@ void boundary_project(const boundary *b, const double *x, double *z)
             if (q == next) {
                 z[q] = value;
                 next++;
-            } else z[q] = (z[q] + value) / 2;
+            } else
+                z[q] = (z[q] + value) / 2;
         }
     assert(next == b->unknown_count);
 }
@@ -196,6 +212,7 @@ void boundary_reduce(const boundary *b, const double *force, double *g)
         for (int k = 0; k < 3; k++) {
             int32_t q = b->unknown[3 * (size_t)v + k];
             if (q < 0) continue;
-            g[q] += b->plain[v] ? force[3 * (size_t)v + k] : vec_dot(force + 3 * (size_t)v, b->basis + 9 * (size_t)v + 3 * k);
+            g[q] += b->plain[v] ? force[3 * (size_t)v + k]
+                                : vec_dot(force + 3 * (size_t)v, b->basis + 9 * (size_t)v + 3 * k);
         }
 }

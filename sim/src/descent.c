@@ -15,8 +15,14 @@ static double dot(const double *a, const double *b, int64_t n)
     return sum;
 }
 
-static int64_t unknowns(const descent *d) { return d->t->b.unknown_count; }
-static size_t coordinates(const descent *d) { return 3 * (size_t)d->t->b.node_count; }
+static int64_t unknowns(const descent *d)
+{
+    return d->t->b.unknown_count;
+}
+static size_t coordinates(const descent *d)
+{
+    return 3 * (size_t)d->t->b.node_count;
+}
 
 void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out)
 {
@@ -91,7 +97,8 @@ static void record(descent *d, int iteration, double step, hessian_kind kind, do
     if (d->params->progress) d->params->progress(r, d->params->context);
 }
 
-/* Factorises at x, from the wanted kind on towards the safer ones. *kind says what it became; *ok false: none. */
+/* Factorises at x, from the wanted kind on towards the safer ones. *kind says what it became; *ok false:
+ * none. */
 static bool factorise(descent *d, const double *x, hessian_kind *kind, bool *ok, double *seconds, err *e)
 {
     assembly *a = &d->t->a;
@@ -116,7 +123,8 @@ static bool factorise(descent *d, const double *x, hessian_kind *kind, bool *ok,
     if (!*ok) {
         *kind = HESSIAN_SHIFTED;
         double mean = 0;
-        for (int64_t j = 0; j < unknowns(d); j++) mean += fabs(a->value[a->column_start[j]]) / (double)unknowns(d);
+        for (int64_t j = 0; j < unknowns(d); j++)
+            mean += fabs(a->value[a->column_start[j]]) / (double)unknowns(d);
         for (double shift = 1e-3; !*ok && shift < 1e3; shift *= 10)
             if (!linear_factor(d->t->l, a->value, shift * mean, ok, e)) return false;
     }
@@ -158,7 +166,7 @@ static void remember_step(descent *d)
         ss += s * s;
     }
     if (!(sy > 1e-10 * sqrt(ss * yy))) return; /* negative curvature would spoil the descent */
-    if (d->pair_count == PAIR_LIMIT) { /* forget the oldest */
+    if (d->pair_count == PAIR_LIMIT) {         /* forget the oldest */
         double *s = d->pair_s[0], *y = d->pair_y[0];
         for (int k = 1; k < PAIR_LIMIT; k++) {
             d->pair_s[k - 1] = d->pair_s[k];
@@ -202,31 +210,33 @@ static double line_search(descent *d)
     return 0;
 }
 
-/* Is another step with the old factor the cheaper way? In solves, from counts alone, so that the choice does not
- * depend on the clock: the rate seen since the factorisation, against a factorisation and a few steps. */
+/* Is another step with the old factor the cheaper way? In solves, from counts alone, so that the choice does
+ * not depend on the clock: the rate seen since the factorisation, against a factorisation and a few steps. */
 static bool worth_reusing(const descent *d)
 {
     if (!d->has_factor || !d->params->reuse_factor) return false;
     if (d->since_factor < 2) return true;
     linear_stats s = linear_measure(d->t->l);
-    /* nanoseconds on one core: 0.07 per flop of a factorisation; a step is a solve (1.5 per entry) and an energy
-     * with forces (500 per tet) */
+    /* nanoseconds on one core: 0.07 per flop of a factorisation; a step is a solve (1.5 per entry) and an
+     * energy with forces (500 per tet) */
     double factor = 0.07 * s.factor_flops + 2500.0 * d->t->a.tet_count;
     double step = 1.5 * (double)s.factor_entries + 500.0 * d->t->a.tet_count;
     double rate = log(d->residual_at_factor / d->residual) / d->since_factor;
     return rate > 0 && log(d->residual / d->tolerance) / rate < factor / step + 4;
 }
 
-/* Residual of the reference: prescribed nodes moved, free ones carried by the guide only. It sees no common rigid
- * motion, so a turned head is held to the same tolerance. */
+/* Residual of the reference: prescribed nodes moved, free ones carried by the guide only. It sees no common
+ * rigid motion, so a turned head is held to the same tolerance. */
 static double reference_residual(descent *d)
 {
     solver *t = d->t;
     int64_t n = unknowns(d);
     for (int32_t v = 0; v < t->b.node_count; v++) {
         double *p = d->x_new + 3 * (size_t)v;
-        if (t->attach->kind[v] == NODE_FREE) rigid_apply(&t->b.guide, t->mesh->xyz + 3 * (size_t)v, p);
-        else vec_copy(t->b.origin + 3 * (size_t)v, p);
+        if (t->attach->kind[v] == NODE_FREE)
+            rigid_apply(&t->b.guide, t->mesh->xyz + 3 * (size_t)v, p);
+        else
+            vec_copy(t->b.origin + 3 * (size_t)v, p);
     }
     if (isfinite(evaluate(d, d->x_new, d->force_new, d->g_new))) return sqrt(dot(d->g_new, d->g_new, n));
     /* no energy there (a model that forbids inversion): the linear response instead */
@@ -268,7 +278,8 @@ static bool predict(descent *d, const double *x_start, double *seconds, bool *ok
     return true;
 }
 
-bool descent_run(descent *d, double load, double rel_tol, const double *x_start, solve_outcome *outcome, err *e)
+bool descent_run(descent *d, double load, double rel_tol, const double *x_start, solve_outcome *outcome,
+                 err *e)
 {
     solver *t = d->t;
     d->load = load;
@@ -285,7 +296,8 @@ bool descent_run(descent *d, double load, double rel_tol, const double *x_start,
     d->residual = sqrt(dot(d->g, d->g, unknowns(d)));
     bool rest = isfinite(d->energy) && d->residual <= d->tolerance, ok = true;
     hessian_kind kind = HESSIAN_TRUE;
-    if (!rest && d->params->predictor == PREDICT_ELASTIC && !predict(d, x_start, &factor_s, &ok, e)) return false;
+    if (!rest && d->params->predictor == PREDICT_ELASTIC && !predict(d, x_start, &factor_s, &ok, e))
+        return false;
     record(d, 0, 0, HESSIAN_TRUE, factor_s);
     if (!ok || !isfinite(d->energy)) {
         *outcome = STOPPED_NOT_FINITE;
@@ -320,7 +332,9 @@ bool descent_run(descent *d, double load, double rel_tol, const double *x_start,
             if (!find_direction(d, e)) return false;
             step = line_search(d);
             if (step > 0 || kind == HESSIAN_SHIFTED) break;
-            kind = kind == HESSIAN_REUSED ? HESSIAN_TRUE : kind == HESSIAN_TRUE ? HESSIAN_PROJECTED : HESSIAN_SHIFTED;
+            kind = kind == HESSIAN_REUSED ? HESSIAN_TRUE
+                   : kind == HESSIAN_TRUE ? HESSIAN_PROJECTED
+                                          : HESSIAN_SHIFTED;
         }
         if (!(step > 0)) {
             *outcome = STOPPED_LINE_SEARCH;

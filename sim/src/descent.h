@@ -34,7 +34,8 @@ typedef struct descent {
 
 void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out);
 void descent_free(descent *d);
-/* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they were).
- * False: refused. *outcome is never SOLVED unless the residual is below the tolerance; d->x is the last iterate. */
+/* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they
+ * were). False: refused. *outcome is never SOLVED unless the residual is below the tolerance; d->x is the
+ * last iterate. */
 bool descent_run(descent *d, double load, double rel_tol, const double *x_start, solve_outcome *outcome,
                  err *e) MUST_CHECK;

@@ -10,13 +10,20 @@
 const char *solve_outcome_text(solve_outcome outcome)
 {
     switch (outcome) {
-    case SOLVED: return "solved";
-    case STOPPED_MAX_ITERATIONS: return "stopped: too many iterations";
-    case STOPPED_LINE_SEARCH: return "stopped: no step lowers the energy";
-    case STOPPED_NOT_FINITE: return "stopped: a tet is inverted in a material that forbids it";
-    case STOPPED_SINGULAR: return "stopped: the stiffness matrix cannot be made positive definite";
-    case STOPPED_MAX_HALVINGS: return "stopped: the load step became too small";
-    case STOPPED_INTERRUPTED: return "interrupted";
+    case SOLVED:
+        return "solved";
+    case STOPPED_MAX_ITERATIONS:
+        return "stopped: too many iterations";
+    case STOPPED_LINE_SEARCH:
+        return "stopped: no step lowers the energy";
+    case STOPPED_NOT_FINITE:
+        return "stopped: a tet is inverted in a material that forbids it";
+    case STOPPED_SINGULAR:
+        return "stopped: the stiffness matrix cannot be made positive definite";
+    case STOPPED_MAX_HALVINGS:
+        return "stopped: the load step became too small";
+    case STOPPED_INTERRUPTED:
+        return "interrupted";
     }
     assert(0);
     return "";
@@ -40,17 +47,23 @@ solve_params solve_params_default(void)
 static bool check_params(const solve_params *p, err *e)
 {
     if (p->load_steps < 1) return err_set(e, ERR_INPUT, "load_steps must be >= 1, got %d", p->load_steps);
-    if (p->max_halvings < 0) return err_set(e, ERR_INPUT, "max_halvings must be >= 0, got %d", p->max_halvings);
-    if (p->max_iterations < 0) return err_set(e, ERR_INPUT, "max_iterations must be >= 0, got %d", p->max_iterations);
-    if (p->max_step_cuts < 0) return err_set(e, ERR_INPUT, "max_step_cuts must be >= 0, got %d", p->max_step_cuts);
+    if (p->max_halvings < 0)
+        return err_set(e, ERR_INPUT, "max_halvings must be >= 0, got %d", p->max_halvings);
+    if (p->max_iterations < 0)
+        return err_set(e, ERR_INPUT, "max_iterations must be >= 0, got %d", p->max_iterations);
+    if (p->max_step_cuts < 0)
+        return err_set(e, ERR_INPUT, "max_step_cuts must be >= 0, got %d", p->max_step_cuts);
     if (!(p->rel_tol > 0 && p->rel_tol < 1))
         return err_set(e, ERR_INPUT, "rel_tol must lie between 0 and 1, got %g", p->rel_tol);
     if (!(p->intermediate_rel_tol > 0 && p->intermediate_rel_tol < 1))
-        return err_set(e, ERR_INPUT, "intermediate_rel_tol must lie between 0 and 1, got %g", p->intermediate_rel_tol);
-    if (!(p->max_step_mm > 0)) return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
+        return err_set(e, ERR_INPUT, "intermediate_rel_tol must lie between 0 and 1, got %g",
+                       p->intermediate_rel_tol);
+    if (!(p->max_step_mm > 0))
+        return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
     if (p->projection != PROJECTION_CLAMP && p->projection != PROJECTION_ABS)
         return err_set(e, ERR_INPUT, "projection must be clamp or abs");
-    if (p->blas_threads < 1) return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", p->blas_threads);
+    if (p->blas_threads < 1)
+        return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", p->blas_threads);
     return true;
 }
 
@@ -63,7 +76,8 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     t->mesh = problem->mesh;
     t->attach = problem->attach;
     bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e) &&
-              boundary_make(problem->mesh, problem->attach, &t->b, e) && assembly_make(problem->mesh, &el, &t->b, &t->a, e);
+              boundary_make(problem->mesh, problem->attach, &t->b, e) &&
+              assembly_make(problem->mesh, &el, &t->b, &t->a, e);
     if (ok && t->b.unknown_count > 0)
         ok = linear_create(t->b.unknown_count, t->a.column_start, t->a.row, blas_threads, &t->l, e);
     elements_free(&el);
@@ -113,20 +127,22 @@ static void move_bones(solver *t, const rigid motion[SEGMENT_COUNT], double load
     boundary_move(&t->b, t->mesh, t->attach, part);
 }
 
-bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
-                  equilibrium *out, err *e)
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz,
+                  const solve_params *params, equilibrium *out, err *e)
 {
     if (!check_params(params, e)) return false;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         double m[16];
         rigid checked;
         rigid_to_matrix(&motion[s], m);
-        if (!rigid_from_matrix(m, &checked, e)) return err_prefix(e, "motion of %s", segment_name((segment_id)s));
+        if (!rigid_from_matrix(m, &checked, e))
+            return err_prefix(e, "motion of %s", segment_name((segment_id)s));
     }
     double begin = clock_s();
     size_t n = 3 * (size_t)t->b.node_count;
     for (size_t i = 0; start_xyz && i < n; i++)
-        if (!isfinite(start_xyz[i])) return err_set(e, ERR_INPUT, "start position of node %zu is not finite", i / 3);
+        if (!isfinite(start_xyz[i]))
+            return err_set(e, ERR_INPUT, "start position of node %zu is not finite", i / 3);
     linear_stats before = t->l ? linear_measure(t->l) : (linear_stats){0};
     equilibrium q = {.node_count = t->b.node_count, .xyz = NEW_ARRAY(double, n), .prepare_s = t->prepare_s};
     double *at_load = COPY_ARRAY(double, t->mesh->xyz, n), *start = NEW_ARRAY(double, n);
@@ -191,14 +207,16 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         }
         q.total_s = clock_s() - begin;
         *out = q;
-    } else equilibrium_free(&q);
+    } else
+        equilibrium_free(&q);
     descent_free(&d);
     free(at_load);
     free(start);
     return ok;
 }
 
-bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out, err *e)
+bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out,
+                       err *e)
 {
     solver *t = NULL;
     if (!check_params(params, e) || !solver_create(problem, params->blas_threads, &t, e)) return false;

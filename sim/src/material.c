@@ -28,16 +28,23 @@ bool material_make(material_model model, double young_kpa, double poisson, mater
         return err_set(e, ERR_INPUT, "poisson must lie between -1 and 0.5, both excluded, got %g", poisson);
     double mu = young_kpa / (2 * (1 + poisson));
     double lambda = young_kpa * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    material m = {.model = model, .young_kpa = young_kpa, .poisson = poisson, .mu_kpa = mu, .lambda_kpa = lambda};
+    material m = {
+        .model = model, .young_kpa = young_kpa, .poisson = poisson, .mu_kpa = mu, .lambda_kpa = lambda};
     switch (model) {
     case MATERIAL_SNH_LOG:
         m.mu_kpa = 4.0 / 3.0 * mu;
         m.lambda_kpa = lambda + 5.0 / 6.0 * mu;
         break;
-    case MATERIAL_SNH: m.lambda_kpa = lambda + mu; break;
-    case MATERIAL_NH_ISO: m.lambda_kpa = lambda + 2.0 / 3.0 * mu; break; /* the bulk modulus */
-    case MATERIAL_NH_LN: break;
-    default: assert(0);
+    case MATERIAL_SNH:
+        m.lambda_kpa = lambda + mu;
+        break;
+    case MATERIAL_NH_ISO:
+        m.lambda_kpa = lambda + 2.0 / 3.0 * mu;
+        break; /* the bulk modulus */
+    case MATERIAL_NH_LN:
+        break;
+    default:
+        assert(0);
     }
     *out = m;
     return true;
@@ -92,7 +99,8 @@ material_terms material_terms_at(const material *m, const double F[9])
         t.psi_jj = mu * 5 / 9 * w * I / (J * J) + la;
         break;
     }
-    default: assert(0);
+    default:
+        assert(0);
     }
     return t;
 }
@@ -105,7 +113,10 @@ void material_cofactor(const double F[9], double out[9])
     vec_cross(F, F + 3, out + 6);
 }
 
-double material_energy(const material *m, const double F[9]) { return material_terms_at(m, F).psi; }
+double material_energy(const material *m, const double F[9])
+{
+    return material_terms_at(m, F).psi;
+}
 
 void material_stress(const material *m, const double F[9], double P[9])
 {
@@ -145,7 +156,8 @@ void material_hessian_projected(const material *m, const double F[9], projection
     if (how == PROJECTION_NONE) return;
     double value[9], mode[9][9];
     int count = material_negative_modes(&t, F, value, mode);
-    for (int k = 0; k < count; k++) add_outer((how == PROJECTION_ABS ? -2 : -1) * value[k], mode[k], mode[k], H);
+    for (int k = 0; k < count; k++)
+        add_outer((how == PROJECTION_ABS ? -2 : -1) * value[k], mode[k], mode[k], H);
 }
 
 void material_hessian(const material *m, const double F[9], double H[81])

@@ -26,8 +26,8 @@ static void rotation_axis(const double r[9], double angle, double axis[3])
     if (vec_dot(axis, skew) < 0) vec_scale(axis, -1, axis);
 }
 
-/* out = V(angle) v with V = integral of the rotation over the way: the translation of a screw of unit velocity v.
- * Murray, Li, Sastry 1994, eq. 2.36. */
+/* out = V(angle) v with V = integral of the rotation over the way: the translation of a screw of unit
+ * velocity v. Murray, Li, Sastry 1994, eq. 2.36. */
 static void integrate(const double axis[3], double angle, const double v[3], double out[3])
 {
     double a[3], b[3];

@@ -37,8 +37,10 @@ bool restraint_check(const tetmesh *m, const attach_map *a, err *e)
             int32_t v = m->tet[4 * (size_t)t + k], r = root_of(parent, v);
             int32_t s = root_of(parent, m->tet[4 * (size_t)t]);
             used[v] = 1;
-            if (r < s) parent[s] = r;
-            else parent[r] = s;
+            if (r < s)
+                parent[s] = r;
+            else
+                parent[r] = s;
         }
     int32_t loose = 0, first = -1;
     for (int32_t v = 0; v < n; v++)
@@ -58,9 +60,11 @@ bool restraint_check(const tetmesh *m, const attach_map *a, err *e)
         size[p]++;
         vec_add(centre + 3 * (size_t)p, m->xyz + 3 * (size_t)v, centre + 3 * (size_t)p);
     }
-    for (int32_t p = 0; p < parts; p++) vec_scale(centre + 3 * (size_t)p, 1.0 / size[p], centre + 3 * (size_t)p);
+    for (int32_t p = 0; p < parts; p++)
+        vec_scale(centre + 3 * (size_t)p, 1.0 / size[p], centre + 3 * (size_t)p);
     for (int32_t v = 0; v < n; v++)
-        reach[part[v]] = fmax(reach[part[v]], vec_distance(m->xyz + 3 * (size_t)v, centre + 3 * (size_t)part[v]));
+        reach[part[v]] =
+            fmax(reach[part[v]], vec_distance(m->xyz + 3 * (size_t)v, centre + 3 * (size_t)part[v]));
     for (int32_t v = 0; v < n; v++) {
         static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         double p[3];
@@ -74,11 +78,13 @@ bool restraint_check(const tetmesh *m, const attach_map *a, err *e)
         double value[6], Q[36];
         symmetric_eigen(6, gram + 36 * (size_t)p, value, Q);
         int free_moves = 0;
-        for (int k = 0; k < 6; k++) free_moves += !(value[k] > 1e-8); /* rows are of order one: 1e-4 in length */
+        for (int k = 0; k < 6; k++)
+            free_moves += !(value[k] > 1e-8); /* rows are of order one: 1e-4 in length */
         if (free_moves == 0) continue;
         const double *c = centre + 3 * (size_t)p;
         err_set(e, ERR_GEOMETRY,
-                "a part of the tissue is not held by bone: %d of its 6 rigid motions are free (%d of %d nodes, about "
+                "a part of the tissue is not held by bone: %d of its 6 rigid motions are free (%d of %d "
+                "nodes, about "
                 "%.1f %.1f %.1f mm, radius %.1f mm, %d parts in all)",
                 free_moves, size[p], n, c[0], c[1], c[2], reach[p], parts);
         goto done;

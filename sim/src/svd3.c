@@ -54,13 +54,16 @@ void svd3(const double F[9], double U[9], double s[3], double V[9])
     vec_cross(w[0], w[1], w[2]); /* +-v[order[2]], making V a rotation */
     s[0] = length[order[0]];
     s[1] = length[order[1]];
-    if (s[0] > 0) vec_scale(b[order[0]], 1 / s[0], u[0]);
-    else vec_copy((const double[3]){1, 0, 0}, u[0]);
+    if (s[0] > 0)
+        vec_scale(b[order[0]], 1 / s[0], u[0]);
+    else
+        vec_copy((const double[3]){1, 0, 0}, u[0]);
     if (s[1] > 1e-300) {
         vec_scale(b[order[1]], 1 / s[1], u[1]);
         vec_axpy(u[1], -vec_dot(u[0], u[1]), u[0], u[1]);
         if (!(vec_normalize(u[1]) > 0.5)) any_normal(u[0], u[1]);
-    } else any_normal(u[0], u[1]);
+    } else
+        any_normal(u[0], u[1]);
     vec_cross(u[0], u[1], u[2]);
     double Fw[3];
     mat_apply(F, w[2], Fw);

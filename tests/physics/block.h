@@ -22,11 +22,15 @@ typedef struct block {
     double jitter;  /* of inner nodes, as a fraction of the cell */
 } block;
 
-static inline int32_t block_node(const block *b, int i, int j, int k) { return (k * (b->ny + 1) + j) * (b->nx + 1) + i; }
+static inline int32_t block_node(const block *b, int i, int j, int k)
+{
+    return (k * (b->ny + 1) + j) * (b->nx + 1) + i;
+}
 
 static inline tetmesh block_mesh(const block *b)
 {
-    static const int six[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+    static const int six[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                                  {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
     static const int five[5][4] = {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
     assert(b->tets == 6 || b->tets == 5);
     tetmesh m = tetmesh_new((b->nx + 1) * (b->ny + 1) * (b->nz + 1), b->tets * b->nx * b->ny * b->nz);
@@ -38,7 +42,8 @@ static inline tetmesh block_mesh(const block *b)
                 double *x = m.xyz + 3 * (size_t)block_node(b, i, j, k);
                 int at[3] = {i, j, k};
                 bool inner = i > 0 && j > 0 && k > 0 && i < b->nx && j < b->ny && k < b->nz;
-                for (int c = 0; c < 3; c++) x[c] = cell[c] * (at[c] + (inner ? b->jitter * block_random(&seed) : 0));
+                for (int c = 0; c < 3; c++)
+                    x[c] = cell[c] * (at[c] + (inner ? b->jitter * block_random(&seed) : 0));
             }
     int32_t t = 0;
     for (int k = 0; k < b->nz; k++)
@@ -68,8 +73,8 @@ static inline void tie(attach_map *a, int32_t v, segment_id segment)
     a->segment[v] = (int32_t)segment;
 }
 
-/* The slab of the cross_solver data, any fineness: lies on a cylinder of 80 mm, its bone side tied to the cranium but for
- * a patch that belongs to the maxilla and a free ring of 10 mm around it. */
+/* The slab of the cross_solver data, any fineness: lies on a cylinder of 80 mm, its bone side tied to the
+ * cranium but for a patch that belongs to the maxilla and a free ring of 10 mm around it. */
 static inline tetmesh slab_mesh(int nx, int ny, int nz, attach_map *a)
 {
     block b = {nx, ny, nz, {150, 180, 25}, 6, 0};
@@ -79,8 +84,10 @@ static inline tetmesh slab_mesh(int nx, int ny, int nz, attach_map *a)
         double *x = m.xyz + 3 * (size_t)v, u = x[0] - 75, w = x[1] - 90, depth = x[2];
         if (depth == 0) {
             double du = fmax(fabs(u) - 25, 0), dw = fmax(fabs(w) - 20, 0), off = sqrt(du * du + dw * dw);
-            if (off == 0) tie(a, v, SEGMENT_MAXILLA);
-            else if (off > 10) tie(a, v, SEGMENT_CRANIUM);
+            if (off == 0)
+                tie(a, v, SEGMENT_MAXILLA);
+            else if (off > 10)
+                tie(a, v, SEGMENT_CRANIUM);
         }
         x[0] = (80 + depth) * sin(u / 80);
         x[1] = w;

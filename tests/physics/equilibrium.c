@@ -22,7 +22,8 @@ typedef struct setting {
 
 static void wire(setting *s)
 {
-    s->problem = (equilibrium_problem){.mesh = &s->mesh, .attach = &s->attach, .materials = &s->table, .material_count = 1};
+    s->problem = (equilibrium_problem){
+        .mesh = &s->mesh, .attach = &s->attach, .materials = &s->table, .material_count = 1};
     rest_motions(s->problem.motion);
 }
 
@@ -84,7 +85,8 @@ static void an_affine_boundary_gives_an_affine_inside(void **state)
         solver *t = NULL;
         assert_ok(solver_create(&s.problem, 1, &t, &e));
         for (int32_t v = 0; v < s.mesh.vertex_count; v++)
-            if (s.attach.kind[v] == NODE_TIED) mat_apply(A, s.mesh.xyz + 3 * (size_t)v, t->b.origin + 3 * (size_t)v);
+            if (s.attach.kind[v] == NODE_TIED)
+                mat_apply(A, s.mesh.xyz + 3 * (size_t)v, t->b.origin + 3 * (size_t)v);
         solve_params params = solve_params_default();
         equilibrium q = {0};
         descent d;
@@ -314,10 +316,11 @@ static void a_block_compressed_to_half_is_solved(void **state)
         solve_params params = solve_params_default();
         params.reuse_factor = reuse;
         equilibrium q = solve(&s, &params);
-        print_message("compressed to 50 %%, %s: %s, %d iterations, %d factorisations, %d loads, %.2f s, min J %.4f, "
-                      "%d inverted, energy %.10g uJ\n",
-                      reuse ? "reused factors" : "Newton", solve_outcome_text(q.outcome), q.iterations,
-                      q.factorisations, q.loads, q.total_s, q.extremes.min_j, q.extremes.inverted_count, q.energy_uj);
+        print_message(
+            "compressed to 50 %%, %s: %s, %d iterations, %d factorisations, %d loads, %.2f s, min J %.4f, "
+            "%d inverted, energy %.10g uJ\n",
+            reuse ? "reused factors" : "Newton", solve_outcome_text(q.outcome), q.iterations,
+            q.factorisations, q.loads, q.total_s, q.extremes.min_j, q.extremes.inverted_count, q.energy_uj);
         assert_int_equal(q.outcome, SOLVED);
         assert_true(q.residual_mn <= q.tolerance_mn);
         assert_true(q.energy_uj > 0);
@@ -368,7 +371,10 @@ static void a_failed_load_is_tried_again_in_smaller_steps(void **state)
     tear_down(&s);
 }
 
-static bool stop_at_third(void *context) { return ++*(int *)context == 3; }
+static bool stop_at_third(void *context)
+{
+    return ++*(int *)context == 3;
+}
 static void count_record(const newton_record *r, void *context)
 {
     (void)r;

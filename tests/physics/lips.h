@@ -2,8 +2,8 @@
 #pragma once
 #include "tests/physics/block.h"
 
-/* A block whose nodes at height layer `cut` are doubled and paired (normal +z). The bottom is tied to the distal
- * segment, the top to the maxilla; where `with_sliding`, side x = 0 slides on the cranium. */
+/* A block whose nodes at height layer `cut` are doubled and paired (normal +z). The bottom is tied to the
+ * distal segment, the top to the maxilla; where `with_sliding`, side x = 0 slides on the cranium. */
 static inline tetmesh lips_mesh(const block *b, int cut, bool with_sliding, attach_map *a)
 {
     tetmesh whole = block_mesh(b);
@@ -31,8 +31,10 @@ static inline tetmesh lips_mesh(const block *b, int cut, bool with_sliding, atta
     }
     for (int32_t v = 0; v < n; v++) {
         const double *x = m.xyz + 3 * (size_t)v;
-        if (v < layer) tie(a, v, SEGMENT_DISTAL);
-        else if (v >= n - layer) tie(a, v, SEGMENT_MAXILLA);
+        if (v < layer)
+            tie(a, v, SEGMENT_DISTAL);
+        else if (v >= n - layer)
+            tie(a, v, SEGMENT_MAXILLA);
         else if (with_sliding && x[0] == 0 && (v < first || v >= first + layer)) {
             a->kind[v] = NODE_SLIDING;
             a->segment[v] = SEGMENT_CRANIUM;

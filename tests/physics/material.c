@@ -122,8 +122,10 @@ static double lowest_eigenvalue(const double H[81], double shift)
                 if (i == j) positive = sum > 0;
                 L[9 * i + j] = i == j ? sqrt(fmax(sum, 0)) : sum / L[10 * j];
             }
-        if (positive) low = mid;
-        else high = mid;
+        if (positive)
+            low = mid;
+        else
+            high = mid;
     }
     return low + shift;
 }
@@ -175,7 +177,8 @@ static void element_forces_and_stiffness_are_derivatives(void **state)
         assert_ok(elements_make(&mesh, &table, 1, &el, &e));
         double x[12], f[12], K[9 * ELEMENT_PAIRS], h = 1e-4;
         for (int k = 0; k < 12; k++)
-            x[k] = mesh.xyz[3 * mesh.tet[k / 3] + k % 3] + (model <= MATERIAL_SNH ? 1.5 : 0.3) * block_random(&seed);
+            x[k] = mesh.xyz[3 * mesh.tet[k / 3] + k % 3] +
+                   (model <= MATERIAL_SNH ? 1.5 : 0.3) * block_random(&seed);
         const material *m = &el.materials[0];
         element_energy(m, el.gradient, el.volume[0], x, f);
         element_stiffness(m, el.gradient, el.volume[0], x, PROJECTION_NONE, K);
@@ -205,7 +208,8 @@ static void element_forces_and_stiffness_are_derivatives(void **state)
                 double sum = 0;
                 for (int r = 0; r < 3; r++)
                     for (int s = 0; s < 3; s++)
-                        sum += el.volume[0] * el.gradient[3 * element_pair[p][0] + r] * H[9 * (3 * (i / 3) + r) + 3 * (i % 3) + s] *
+                        sum += el.volume[0] * el.gradient[3 * element_pair[p][0] + r] *
+                               H[9 * (3 * (i / 3) + r) + 3 * (i % 3) + s] *
                                el.gradient[3 * element_pair[p][1] + s];
                 assert_near(K[9 * p + i], sum, 1e-11 * scale);
             }
@@ -221,7 +225,7 @@ static void svd_rebuilds_flat_and_mirrored_matrices(void **state)
     for (int n = 0; n < 60; n++) {
         double F[9], U[9], s[3], V[9];
         for (int i = 0; i < 9; i++) F[i] = block_random(&seed);
-        if (n % 4 == 1) vec_axpy(F, 1e-9, F + 3, F + 6);        /* rank two, nearly */
+        if (n % 4 == 1) vec_axpy(F, 1e-9, F + 3, F + 6);                 /* rank two, nearly */
         if (n % 4 == 2) vec_scale(F, 2, F + 3), vec_scale(F, -1, F + 6); /* rank one */
         if (n == 3) memset(F, 0, sizeof F);
         svd3(F, U, s, V);
@@ -231,7 +235,8 @@ static void svd_rebuilds_flat_and_mirrored_matrices(void **state)
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++) {
                 double sum = 0, uu = 0;
-                for (int k = 0; k < 3; k++) sum += U[3 * i + k] * s[k] * V[3 * j + k], uu += U[3 * k + i] * U[3 * k + j];
+                for (int k = 0; k < 3; k++)
+                    sum += U[3 * i + k] * s[k] * V[3 * j + k], uu += U[3 * k + i] * U[3 * k + j];
                 assert_near(sum, F[3 * i + j], 1e-14);
                 assert_near(uu, i == j, 1e-13);
             }
