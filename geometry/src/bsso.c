@@ -185,10 +185,9 @@ static double sagittal_x(const jaw_side *j, const osteotomy_params *p, double y,
     terms(y, inside_bone, t);
     for (int k = 0; k < TERMS; k++) x += t[k] * j->fit[k];
     if (canal_at(j, y, canal) && fabs(z - canal[1]) < 6) x = fmax(x, canal[0] + p->canal_clearance_mm);
-    if (y < j->l7[1] + 4 && z > j->l7[2] - 14) { /* beside the molars */
-        double u = fmin(fmax((y - j->l6[1]) / (j->l7[1] - j->l6[1]), 0), 1);
-        x = fmax(x, j->l6[0] + u * (j->l7[0] - j->l6[0]) + crown_mm);
-    }
+    double u = fmin(fmax((y - j->l6[1]) / (j->l7[1] - j->l6[1]), 0), 1), /* beside the molars, fading behind and below */
+        away = fmax(y - j->l7[1], 0) + fmax(j->l7[2] - 10 - z, 0);
+    x = fmax(x, j->l6[0] + u * (j->l7[0] - j->l6[0]) + crown_mm - away / 2);
     if (cross_jaw(j, y, inside_bone, &out, &in) && out - in > 2 * least_plate_mm)
         x = fmax(x, in + least_plate_mm);
     return x;
@@ -329,7 +328,7 @@ static cutter block(const jaw_side *j, const osteotomy_params *p)
 /* box without the block shifted by mm */
 static bool carve(const surface *box, const cutter *block_, double mm, surface *out, err *e)
 {
-    surface b = cutter_offset(block_, mm);
+    surface b = cutter_offset(block_, mm, 0);
     bool ok = boolean_apply(box, &b, BOOLEAN_DIFFERENCE, out, NULL, e);
     surface_free(&b);
     return ok;
@@ -418,8 +417,11 @@ bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nea
     }
     cutter box = cutter_box(&j.frame, low, high), distal = block(&j, p);
     cut_bodies b = {.sheet = cutter_sheet(&distal)};
+    surface wide = cutter_offset(&box, 0, HOLLOW_MM);
     bool ok = carve(&box.body, &distal, p->kerf_mm / 2, &b.inner, e) &&
+              carve(&wide, &distal, p->kerf_mm / 2, &b.hollow, e) &&
               carve(&box.body, &distal, -p->kerf_mm / 2, &b.outer, e) && report_side(&j, p, &b.sheet, r, e);
+    surface_free(&wide);
     cutter_free(&box);
     cutter_free(&distal);
     if (!ok) {

@@ -10,13 +10,15 @@ void cut_bodies_free(cut_bodies *b)
 {
     surface_free(&b->inner);
     surface_free(&b->outer);
+    surface_free(&b->hollow);
     surface_free(&b->sheet);
 }
 
 cut_bodies cut_bodies_from(const cutter *c, double kerf_mm)
 {
-    return (cut_bodies){.inner = cutter_offset(c, -kerf_mm / 2),
-                        .outer = cutter_offset(c, kerf_mm / 2),
+    return (cut_bodies){.inner = cutter_offset(c, -kerf_mm / 2, 0),
+                        .outer = cutter_offset(c, kerf_mm / 2, 0),
+                        .hollow = cutter_offset(c, -kerf_mm / 2, HOLLOW_MM),
                         .sheet = cutter_sheet(c)};
 }
 

@@ -4,9 +4,12 @@
 #include "geometry/osteotomy.h"
 #include "geometry/src/cutter.h"
 
-typedef struct cut_bodies { /* smaller and larger by half the kerf; sheet: the middle of the cut, open */
-    surface inner, outer, sheet;
+typedef struct cut_bodies {
+    surface inner, outer; /* smaller and larger by half the kerf */
+    surface hollow;       /* inner, larger where it does not cut: outer without hollow has no face of zero thickness */
+    surface sheet;        /* the middle of the cut, open; empty for user planes */
 } cut_bodies;
+#define HOLLOW_MM 1.0
 
 void cut_bodies_free(cut_bodies *b);
 /* Offsets of one cutter whose body is the piece. */

@@ -17,7 +17,7 @@ cutter cutter_stack(int levels, int nodes, const double *xyz, const uint8_t *sid
                     bool last_cap_moves);
 /* A box in the axes of f. */
 cutter cutter_box(const head_frame *f, const double low[3], const double high[3]);
-/* The body with its moving faces shifted outwards by mm and the others left in place. */
-surface cutter_offset(const cutter *c, double mm);
+/* The body with its moving faces shifted outwards by moving_mm and the others by fixed_mm. */
+surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm);
 /* The moving faces only. */
 surface cutter_sheet(const cutter *c);

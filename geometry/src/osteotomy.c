@@ -23,7 +23,7 @@ static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, 
 {
     surface shell = {0}, off = {0}, left = {0}, dust = {0};
     double start = now(), before = surface_volume(rest);
-    bool ok = boolean_apply(&b->outer, &b->inner, BOOLEAN_DIFFERENCE, &shell, NULL, e) &&
+    bool ok = boolean_apply(&b->outer, &b->hollow, BOOLEAN_DIFFERENCE, &shell, NULL, e) &&
               boolean_apply(rest, &b->inner, BOOLEAN_INTERSECTION, &off, NULL, e) &&
               boolean_apply(rest, &b->outer, BOOLEAN_DIFFERENCE, &left, NULL, e) &&
               boolean_apply(rest, &shell, BOOLEAN_INTERSECTION, &dust, NULL, e);
@@ -66,7 +66,7 @@ static bool plane_bodies(const osteotomy_input *in, const char *label, const sur
     surface_bounds(bone, low, high);
     for (int c = 0; c < 3; c++) centre[c] = (low[c] + high[c]) / 2;
     size = 2 * vec_distance(low, high);
-    surface body[2] = {{0}, {0}};
+    surface body[3] = {{0}, {0}, {0}}; /* inner, outer, hollow */
     bool ok = true;
     for (int i = 0; i < in->plane_count && ok; i++) {
         const cut_plane *q = in->plane + i;
@@ -80,9 +80,9 @@ static bool plane_bodies(const osteotomy_input *in, const char *label, const sur
         vec_cross(f.up, f.left, f.posterior);
         vec_sub(centre, q->point, f.origin); /* the foot of the bone's centre on the plane */
         vec_axpy(centre, -vec_dot(f.origin, f.up), f.up, f.origin);
-        for (int k = 0; k < 2 && ok; k++) {
+        for (int k = 0; k < 3 && ok; k++) {
             /* Boxes of several planes differ in size, so that they share no face. */
-            double far = size * (1 + 0.01 * i), start = (k ? -1 : 1) * p->kerf_mm / 2;
+            double far = size * (1 + 0.01 * i) + (k == 2 ? HOLLOW_MM : 0), start = (k == 1 ? -1 : 1) * p->kerf_mm / 2;
             cutter box = cutter_box(&f, (double[3]){-far, -far, start}, (double[3]){far, far, start + far});
             if (!body[k].triangle_count) {
                 body[k] = surface_copy(&box.body);
@@ -98,11 +98,10 @@ static bool plane_bodies(const osteotomy_input *in, const char *label, const sur
         report_plane(r, label, q->point, q->normal);
     }
     if (!ok) {
-        surface_free(body);
-        surface_free(body + 1);
+        for (int k = 0; k < 3; k++) surface_free(body + k);
         return false;
     }
-    *out = (cut_bodies){.inner = body[0], .outer = body[1]};
+    *out = (cut_bodies){.inner = body[0], .outer = body[1], .hollow = body[2]};
     return true;
 }
 
