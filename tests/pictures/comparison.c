@@ -131,6 +131,23 @@ static void nothing_differs_when_nothing_moves(void **state)
     free_scene(&s);
 }
 
+static void bones_move_under_skin_that_stays(void **state)
+{
+    (void)state;
+    err e = {0};
+    scene s = make_scene(0);
+    s.part.after = rigid_translation((double[3]){0, -9, 0});
+    comparison_result r = {0};
+    assert_ok(comparison_write(linked(&s), &s.params, folder, &r, &e));
+    image skin = load("before_after_left.png"), bones = load("bones_left.png");
+    assert_int_equal(halves_differ(&skin), 0);
+    assert_true(halves_differ(&bones) > 200);
+    image_free(&skin);
+    image_free(&bones);
+    remove_all(&r);
+    free_scene(&s);
+}
+
 static void two_runs_write_the_same_bytes(void **state)
 {
     (void)state;
@@ -255,6 +272,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_whole_set_is_written_and_says_what_it_shows),
         cmocka_unit_test(nothing_differs_when_nothing_moves),
+        cmocka_unit_test(bones_move_under_skin_that_stays),
         cmocka_unit_test(two_runs_write_the_same_bytes),
         cmocka_unit_test(refusals_write_no_picture),
         cmocka_unit_test(bones_alone_and_skin_alone_give_their_own_pictures),
