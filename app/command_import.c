@@ -111,10 +111,10 @@ static void print_plain(const import_result *r, const char *folder)
                    part->read.welded_vertices, part->read.dropped_triangles, part->read.split_polygons);
         if (part->read.ras) printf("  %12s changed: turned from RAS to LPS\n", "");
         if (part->from_labels)
-            printf("  %12s changed: %d islands dropped, %lld voxels of cavities filled, %lld sealed; %.0f mm^3 of voxels, "
-                   "%.0f in the surface\n",
-                   "", part->islands_dropped, (long long)part->cavity_voxels, (long long)part->sealed_voxels,
-                   part->label_mm3, part->volume_mm3);
+            printf("  %12s changed: %d islands and %d small pieces dropped, %lld voxels of cavities filled, %lld sealed, %d "
+                   "crowded edges parted; %.0f mm^3 of voxels, %.0f in the surface\n",
+                   "", part->islands_dropped, part->made.pieces_dropped, (long long)part->cavity_voxels,
+                   (long long)part->sealed_voxels, part->made.crowded_edges, part->label_mm3, part->volume_mm3);
     }
     if (r->has_points) printf("  %-12s %d points\n", "landmarks", r->points.count);
 }
@@ -132,6 +132,8 @@ static json_t *part_json(const import_part *part)
     if (!part->open_edges) json_object_set_new(o, "volume_mm3", json_real(part->volume_mm3));
     if (part->from_labels) {
         json_object_set_new(o, "islands_dropped", json_integer(part->islands_dropped));
+        json_object_set_new(o, "pieces_dropped", json_integer(part->made.pieces_dropped));
+        json_object_set_new(o, "crowded_edges_parted", json_integer(part->made.crowded_edges));
         json_object_set_new(o, "cavity_voxels", json_integer(part->cavity_voxels));
         json_object_set_new(o, "sealed_voxels", json_integer(part->sealed_voxels));
         json_object_set_new(o, "label_mm3", json_real(part->label_mm3));

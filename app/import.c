@@ -16,7 +16,7 @@ static const double head_least_mm = 150, head_most_mm = 600;
 import_params import_params_default(void)
 {
     return (import_params){
-        .skin_hu = -300, .seal_mm = 8, .island_mm3 = 20, .mesh = label_surface_params_default()};
+        .skin_hu = -300, .seal_mm = 8, .mesh = label_surface_params_default()};
 }
 
 void import_result_free(import_result *r)

@@ -14,8 +14,7 @@ typedef struct import_params {
     const char *ct;     /* the skin is the head in this CT, or NULL */
     double skin_hu;     /* above: not air */
     double seal_mm;     /* openings of the skin narrower than this are sealed, with the airways behind them */
-    double island_mm3;  /* parts of a label smaller than this are dropped */
-    label_surface_params mesh;
+    label_surface_params mesh; /* its least_mm3 holds for islands of voxels too */
     const char *landmarks;
     const char *name; /* NULL: the folder's */
     mesh_space space; /* of mesh files without a tag */
@@ -30,6 +29,7 @@ typedef struct import_part {
     int32_t islands_dropped;       /* of labels */
     int64_t cavity_voxels, island_voxels, sealed_voxels;
     double label_mm3; /* volume of the voxels the surface was made of */
+    label_surface_report made;
     int32_t components, open_edges, holes, crowded_edges, self_intersections;
     double diagonal_mm, area_mm2, volume_mm3; /* volume: of closed surfaces */
 } import_part;

@@ -113,7 +113,7 @@ static bool mesh_part(const import_params *p, const volume *grid, const label_fi
 {
     part->from_labels = true;
     part->label_mm3 = (double)mask_count(m) * voxel_mm3(grid);
-    return label_surface_make(f, number, &p->mesh, &part->mesh, e) || err_prefix(e, "%s", part->source);
+    return label_surface_make(f, number, &p->mesh, &part->mesh, &part->made, e) || err_prefix(e, "%s", part->source);
 }
 
 /* The head as one solid: its largest piece, openings sealed, cavities filled. */
@@ -152,7 +152,7 @@ static bool read_masks(const import_params *p, const volume *v, mask *m, import_
 /* Drops islands, fills what is enclosed and belongs to no other part. */
 static void clean_bones(const import_params *p, const volume *v, mask *m, import_result *out)
 {
-    int64_t least = (int64_t)ceil(p->island_mm3 / voxel_mm3(v)), voxels = mask_voxels(&m[0]);
+    int64_t least = (int64_t)ceil(p->mesh.least_mm3 / voxel_mm3(v)), voxels = mask_voxels(&m[0]);
     for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
         import_part *part = &out->part[i];
         if (!mask_count(&m[i])) continue;

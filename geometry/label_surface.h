@@ -13,7 +13,13 @@ typedef struct label_surface_params {
     double sigma_voxels;
     double edge_mm;     /* largest edge length, about */
     double distance_mm; /* largest distance of a triangle from the smoothed boundary, about */
+    double least_mm3;   /* pieces and bubbles that enclose less are dropped */
 } label_surface_params;
+
+typedef struct label_surface_report {
+    int32_t pieces_dropped;
+    int32_t crowded_edges; /* of the raw mesh, where the part almost touches itself; repair parted them */
+} label_surface_report;
 
 label_surface_params label_surface_params_default(void);
 
@@ -25,10 +31,10 @@ void label_fields_destroy(label_fields **f);
 /* Number of the part at p (LPS mm), -1 outside all. */
 int label_fields_at(const label_fields *f, const double p[3]);
 
-/* The boundary of one part, outward, closed (at the border of the volume too). The caller frees *out. Refuses
- * (ERR_GEOMETRY) an empty part. */
+/* The boundary of one part, outward, closed (at the border of the volume too) and manifold. The caller frees *out.
+ * Refuses (ERR_GEOMETRY) a part that is empty or smaller than least_mm3. report may be NULL. */
 bool label_surface_make(const label_fields *f, int part, const label_surface_params *p, surface *out,
-                        err *e) MUST_CHECK;
+                        label_surface_report *report, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #include "geometry/label_mesher.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
+#include "geometry/repair.h"
 #include "geometry/vec.h"
 #include <assert.h>
 #include <stdlib.h>
@@ -22,7 +23,7 @@ struct label_fields {
 
 label_surface_params label_surface_params_default(void)
 {
-    return (label_surface_params){.sigma_voxels = 0.7, .edge_mm = 1.6, .distance_mm = 0.2};
+    return (label_surface_params){.sigma_voxels = 0.7, .edge_mm = 1.6, .distance_mm = 0.2, .least_mm3 = 20};
 }
 
 static void invert_steps(double step[3][3], double inverse[9])
@@ -175,7 +176,47 @@ static double size_of_part(const double p[3], int region, void *context)
     return ((const one_part *)context)->edge_mm;
 }
 
-bool label_surface_make(const label_fields *f, int part, const label_surface_params *p, surface *out, err *e)
+/* Replaces *s by its pieces that enclose enough. */
+static int32_t drop_specks(surface *s, double least_mm3)
+{
+    int32_t *component, count = surface_components(s, &component), dropped = 0;
+    double *volume = NEW_ARRAY(double, count);
+    uint8_t *keep = NEW_ARRAY(uint8_t, s->triangle_count);
+    for (int32_t t = 0; t < s->triangle_count; t++) {
+        const int32_t *v = s->tri + 3 * (size_t)t;
+        volume[component[t]] += vec_six_volume(s->xyz, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1],
+                                               s->xyz + 3 * (size_t)v[2]) /
+                                6;
+    }
+    for (int32_t k = 0; k < count; k++) dropped += fabs(volume[k]) < least_mm3;
+    for (int32_t t = 0; t < s->triangle_count; t++) keep[t] = fabs(volume[component[t]]) >= least_mm3;
+    surface kept = surface_select(s, keep);
+    surface_free(s);
+    *s = kept;
+    free(component);
+    free(volume);
+    free(keep);
+    return dropped;
+}
+
+/* The mesher's surface is the boundary of tetrahedra: closed, but where two sheets come nearer than its triangles
+ * measure, four of them can share an edge. */
+static bool make_manifold(surface *s, int32_t *crowded_edges, err *e)
+{
+    int32_t open_edges;
+    surface_edge_census(s, &open_edges, crowded_edges);
+    if (!*crowded_edges) return true;
+    repair_params p = repair_params_default();
+    p.min_component_share = 0;
+    surface parted;
+    if (!repair_solid(s, &p, &parted, NULL, e)) return false;
+    surface_free(s);
+    *s = parted;
+    return true;
+}
+
+bool label_surface_make(const label_fields *f, int part, const label_surface_params *p, surface *out,
+                        label_surface_report *report, err *e)
 {
     const part_field *field = f->part + part;
     label_mesher_params m = label_mesher_params_default();
@@ -199,7 +240,17 @@ bool label_surface_make(const label_fields *f, int part, const label_surface_par
     tetmesh mesh;
     one_part context = {f, part, p->edge_mm};
     if (!label_mesher_run(label_of_part, size_of_part, &context, &m, &mesh, e)) return false;
-    *out = label_mesher_surface(&mesh, 1);
+    surface s = label_mesher_surface(&mesh, 1);
     tetmesh_free(&mesh);
+    label_surface_report r = {0};
+    bool good = make_manifold(&s, &r.crowded_edges, e);
+    if (good) r.pieces_dropped = drop_specks(&s, p->least_mm3);
+    if (good && !s.triangle_count) good = err_set(e, ERR_GEOMETRY, "no piece of the part encloses %g mm^3", p->least_mm3);
+    if (!good) {
+        surface_free(&s);
+        return false;
+    }
+    *out = s;
+    if (report) *report = r;
     return true;
 }

@@ -105,14 +105,14 @@ static void a_ball_comes_out_closed_round_and_of_its_volume(void **state)
     label_fields *f = label_fields_create(&v, &ball, 1, p.sigma_voxels);
     surface s, again;
     int32_t open, crowded;
-    assert_ok(label_surface_make(f, 0, &p, &s, &e));
+    assert_ok(label_surface_make(f, 0, &p, &s, NULL, &e));
     assert_ok(surface_check(&s, &e));
     surface_edge_census(&s, &open, &crowded);
     assert_int_equal(open, 0);
     assert_int_equal(crowded, 0);
     assert_near(surface_volume(&s), 4 * pi / 3 * 8000, 0.02 * 4 * pi / 3 * 8000);
     for (int32_t i = 0; i < s.vertex_count; i++) assert_near(vec_norm(s.xyz + 3 * i), 20, 1);
-    assert_ok(label_surface_make(f, 0, &p, &again, &e));
+    assert_ok(label_surface_make(f, 0, &p, &again, NULL, &e));
     assert_int_equal(again.vertex_count, s.vertex_count);
     assert_memory_equal(again.xyz, s.xyz, 3 * (size_t)s.vertex_count * sizeof *s.xyz);
     print_message("ball: %d triangles, volume %.0f of %.0f mm^3\n", s.triangle_count, surface_volume(&s),
@@ -147,7 +147,7 @@ static void two_touching_parts_share_the_space_without_overlap(void **state)
     err e = {0};
     surface s;
     label_surface_params p = label_surface_params_default();
-    assert_refused(label_surface_make(f, 2, &p, &s, &e), ERR_GEOMETRY);
+    assert_refused(label_surface_make(f, 2, &p, &s, NULL, &e), ERR_GEOMETRY);
     label_fields_destroy(&f);
     for (int i = 0; i < 3; i++) mask_free(&half[i]);
     volume_free(&v);
