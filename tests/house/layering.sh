@@ -25,6 +25,7 @@ never geometry '(sim|render|app|cases|tests)/' 'geometry needs none of the other
 never sim '(render|app|cases|tests)/' 'sim needs geometry only'
 never render '(sim|app|cases|tests)/' 'render needs geometry only'
 never app 'tests/' 'app does not need tests'
+never cases '(sim|render|app|tests)/' 'the makers of cases need geometry only'
 only 'geometry/src/' 'geometry/|tests/'
 only 'sim/src/' 'sim/|tests/'
 only 'render/src/' 'render/|tests/'
