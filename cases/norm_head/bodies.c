@@ -6,6 +6,7 @@ bodies bodies_build(void)
     body_skin_tubes(b.skin);
     body_skull_tubes(b.skull);
     body_mandible_tubes(b.mandible);
+    body_skin_lids(&b);
     return b;
 }
 

@@ -16,6 +16,7 @@ bodies bodies_build(void);
 void bodies_free(bodies *b);
 
 double body_skin(const bodies *b, const double p[3]);
+double skin_lid_line(double x); /* height of the line between the lids */
 double body_skull(const bodies *b, const double p[3]);    /* no teeth, no mandible */
 double body_mandible(const bodies *b, const double p[3]); /* no teeth */
 
@@ -23,5 +24,6 @@ double body_mandible(const bodies *b, const double p[3]); /* no teeth */
 radial body_skin_base(void);
 radial body_skull_vault(void);
 void body_skin_tubes(tube *t);
+void body_skin_lids(bodies *b); /* after the others */
 void body_skull_tubes(tube *t);
 void body_mandible_tubes(tube *t);

@@ -10,10 +10,10 @@ _Static_assert((int)MANDIBLE_TUBE_COUNT <= (int)MANDIBLE_TUBES, "room in bodies"
 void body_mandible_tubes(tube *t)
 {
     /* from the lower border to the alveolar crest, symphysis to angle; four layers */
-    static const double lower[][4] = {{0, -76, -81, 5.6},   {8, -75.5, -81, 5.5},  {15, -71.5, -80, 5.2},
+    static const double lower[][4] = {{0, -75.3, -81, 5.6},   {8, -75, -81, 5.5},  {15, -71.5, -80, 5.2},
                                       {22, -64, -77.5, 5}, {29, -53, -73, 4.8},   {35, -41, -67.5, 4.6},
                                       {40, -28, -61.5, 4.2}, {43, -19, -57, 4}};
-    static const double upper[][4] = {{0, -79.5, -61.5, 3.8}, {6, -79, -61.5, 3.8},   {11.5, -76, -60.8, 4.0},
+    static const double upper[][4] = {{0, -78.8, -60.5, 3.7}, {6, -78.3, -60.5, 3.7},   {11.5, -75.5, -60.3, 3.9},
                                       {15.5, -69.5, -59, 4.4}, {18.5, -60, -57.6, 5.2}, {21.5, -49, -56.6, 5.4},
                                       {26, -39, -55.6, 4.6},  {33, -30, -53, 3.6}};
     for (int k = 0; k < 4; k++) {
@@ -42,6 +42,7 @@ static double ramus(const double p[3])
     /* the plate: it leans out towards the condyle and runs outwards going back */
     double x = 43.2 + 0.085 * (p[2] + 57) + 0.07 * (p[1] + 25);
     x += 1.6 * sdf_step(-50, -60, p[2]) * sdf_step(-32, -14, p[1]); /* the angle flares */
+    x -= 3.2 * sdf_step(-33, -46, p[1]) * sdf_step(-40, -58, p[2]);
     double half = 4.2 + 0.8 * sdf_step(-35, -55, p[2]) - 1.2 * sdf_step(-30, -16, p[2]);
     return sdf_meet(flat, fabs(p[0] - x) - half, 6.5);
 }
@@ -65,7 +66,7 @@ double body_mandible(const bodies *b, const double point[3])
     double joint = sdf_cone(p, neck_a, 3.4, neck_b, 3.6);
     joint = sdf_union(joint, sdf_ellipsoid_turned(p, condyle_at, condyle, 0, -0.25, 0), 3.5);
     d = sdf_union(d, joint, 4);
-    d = sdf_union(d, sdf_ellipsoid(p, 0, -76.5, -77.5, 9, 6.0, 7), 6); /* chin */
+    d = sdf_union(d, sdf_ellipsoid(p, 0, -77.6, -78, 9, 6.0, 6.5), 5); /* chin */
     d = sdf_union(d, sdf_sphere(p, 11.5, -74.5, -81.5, 4.6), 6);
     for (int i = 0; i < TEETH_PER_SIDE; i++) {
         const tooth *q = &lower_teeth[i];
@@ -74,8 +75,8 @@ double body_mandible(const bodies *b, const double point[3])
         vec_copy(q->axis, axis);
         vec_normalize(axis);
         vec_axpy(q->tip, q->crown_mm + 3.0, axis, neck);
-        vec_axpy(neck, q->root_mm, axis, apex);
-        d = sdf_union(d, sdf_cone(p, neck, fmin(0.48 * q->depth_mm, 4.2), apex, 2.4), 3);
+        vec_axpy(neck, q->root_mm - 3, axis, apex);
+        d = sdf_union(d, sdf_cone(p, neck, fmin(0.48 * q->depth_mm, 4.2), apex, 1.9), 3);
     }
     static const double lingula_a[3] = {39.8, -24, -35}, lingula_b[3] = {40.6, -23.5, -32.5};
     d = sdf_union(d, sdf_cone(p, lingula_a, 1.4, lingula_b, 0.9), 1.5);

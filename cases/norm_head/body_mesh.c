@@ -71,9 +71,10 @@ static double skin_size(const double p[3])
     double mouth = sdf_ellipsoid(p, 0, -92, -48, 30, 16, 14), nose = sdf_ellipsoid(p, 0, -104, -20, 20, 16, 16);
     double eyes = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 31, -84, 14, 20, 12, 13);
     double ears = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 76, 8, 2, 10, 22, 36);
-    double fine = fmin(fmin(mouth, nose), fmin(eyes, ears + 2));
+    double brows = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 30, -88, 35, 22, 10, 6);
+    double fine = fmin(fmin(mouth, nose), fmin(fmin(eyes, brows + 4), ears + 3));
     double face = fmax(p[1] + 40, 0) * 0.03;
-    return sdf_clamp(1.5 + 0.07 * fmax(fine, 0) + face, 1.5, 4.5);
+    return sdf_clamp(1.3 + 0.08 * fmax(fine, 0) + face, 1.3, 4.5);
 }
 
 static double bone_size(const double p[3])

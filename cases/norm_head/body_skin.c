@@ -14,29 +14,29 @@ static const double face_points[][3] = {
     /* z = 100, 75, 52 */
     {30, -60, 98}, {43, -20, 104}, {46, 15, 104}, {36, 52, 98},
     {24, -86.5, 75}, {45, -70, 75}, {60, -38, 77}, {67, 0, 78}, {66, 32, 76}, {49, 64, 75},
-    {20, -94.5, 52}, {40, -84, 52}, {55, -64, 52}, {65.5, -38, 52}, {71.5, -5, 52}, {73, 25, 50}, {61, 60, 50},
+    {20, -94.5, 52}, {40, -84, 52}, {56, -65.5, 52}, {65.5, -38, 52}, {71.5, -5, 52}, {73, 25, 50}, {61, 60, 50},
     {34, 82, 50},
     /* brow, temple */
-    {15, -94.8, 36}, {30, -92, 36}, {43, -84, 34}, {52, -72.5, 31}, {60, -53, 34}, {66, -30, 36}, {70, -5, 36},
+    {15, -94.8, 36}, {30, -92, 36}, {43.5, -85, 34}, {53.5, -74, 31}, {61, -55, 34}, {66, -30, 36}, {70, -5, 36},
     {72.5, 20, 34}, {63, 58, 30}, {37, 81, 28},
     /* sockets and eye level */
-    {12, -88, 25}, {14, -82, 14}, {31, -83.5, 25}, {31, -79, 12}, {45, -76.5, 15}, {54, -66.5, 13}, {60.5, -48, 14},
+    {12, -88, 25}, {14, -82, 14}, {31, -83.5, 25}, {31, -79, 12}, {45, -76.5, 15}, {55, -67, 13}, {60.5, -48, 14},
     {65.5, -27, 14}, {69, -5, 15}, {70.5, 20, 12}, {61, 56, 8}, {35, 76, 6},
     /* below the orbit */
-    {12, -85, 2}, {25, -86.5, 0}, {36, -84.5, 0}, {47, -78, -2}, {56, -67.5, 0}, {62.5, -50, 1}, {66, -31, 3},
+    {12.5, -87.5, 3}, {25, -86.5, 0}, {36.5, -85.3, -1}, {48.5, -79.5, -3}, {57, -68.5, -1}, {63, -51.5, 1}, {66, -31, 3},
     {67.5, -10, 3}, {68, 18, -6}, {56, 48, -14}, {32, 63, -18},
-    {16, -89.5, -14}, {27, -88.2, -14}, {38, -83, -14}, {48, -75, -14}, {56, -63, -14}, {62, -46, -14}, {64, -28, -14},
+    {16, -89.5, -14}, {27, -88.2, -14}, {39, -84, -14}, {49.5, -77, -13}, {57.5, -65, -13}, {62.5, -47.5, -14}, {64, -28, -14},
     {65, -8, -14},
     /* lip base and cheek */
-    {12, -94.5, -30}, {22, -91.5, -30}, {32, -87, -30}, {43, -78.5, -30}, {52, -66, -30}, {58, -48, -31},
+    {12, -94.5, -30}, {22, -91.5, -30}, {32, -87, -30}, {44, -79, -30}, {53, -67, -30}, {58, -48, -31},
     {61, -28, -32}, {61.5, -6, -30},
     {13, -94, -45}, {24, -88, -46}, {33, -83.3, -46}, {42, -75.5, -46}, {49.5, -63, -46}, {55, -44, -48},
     {57, -24, -48}, {57, -4, -47},
     {13, -90.5, -60}, {24, -85.5, -61}, {33, -79, -61}, {41, -69, -61}, {47, -54, -62}, {51, -36, -63},
     {53, -17, -61},
     /* chin and border of the jaw */
-    {13, -91, -71}, {23, -85.5, -72}, {32, -76, -73}, {39, -62, -74}, {43.5, -44, -73}, {47, -27, -69},
-    {12, -90.5, -83}, {22, -82.5, -84}, {29, -71, -85.5}, {34, -57, -83}, {38, -42, -80},
+    {13, -91, -71}, {23, -85.5, -72}, {32, -76, -73}, {40.5, -62, -73.5}, {45.5, -45, -73}, {48.5, -28, -69},
+    {12, -90.5, -83}, {22, -82.5, -84}, {29, -71, -85.5}, {36, -58, -82}, {40, -43, -79.5},
     {15, -72, -93.5}, {13, -58, -91}, {22, -40, -84}, {40, -20, -73}};
 
 radial body_skin_base(void)
@@ -59,7 +59,7 @@ static void to_ear(const double p[3], const double centre[3], double yaw, double
 }
 
 enum { /* tubes of the skin */
-    HELIX, ANTIHELIX, RIDGE, WALL, UPPER_LIP, LOWER_LIP, LID_LINE, LID_CREASE, SKIN_TUBE_COUNT
+    HELIX, ANTIHELIX, RIDGE, WALL, UPPER_LIP, LOWER_LIP, LID_LINE, LID_CREASE, NECK_MUSCLE, SKIN_TUBE_COUNT
 };
 _Static_assert((int)SKIN_TUBE_COUNT <= (int)SKIN_TUBES, "room in bodies");
 
@@ -75,10 +75,10 @@ void body_skin_tubes(tube *t)
     static const double antihelix[][4] = {{4, 3, 20, 1.2}, {5, 8, 12, 2.0}, {5, 9.5, 2, 2.3}, {4.2, 7, -8, 2.2},
                                           {3.4, 1.5, -13, 2.2}};
     t[ANTIHELIX] = tube_round(antihelix, COUNT(antihelix));
-    static const double ridge[][4] = {{0, -86.7, 26, 5.4}, {0, -91.5, 13, 5.8}, {0, -97.8, 0, 6.0},
-                                      {0, -103.2, -10, 6.4}, {0, -107.0, -16.8, 7.4}};
+    static const double ridge[][4] = {{0, -86.2, 26, 6.0}, {0, -90.9, 13, 6.4}, {0, -97.2, 0, 6.6},
+                                      {0, -102.6, -10, 7.0}, {0, -106.9, -16.8, 7.5}};
     t[RIDGE] = tube_round(ridge, COUNT(ridge));
-    static const double wall[][4] = {{5, -83, 18, 5}, {6.5, -87, 5, 5.6}, {8, -91.5, -7, 6.6}, {9.3, -95, -16, 7.4}};
+    static const double wall[][4] = {{5, -83, 18, 5}, {6, -87, 5, 6.0}, {7, -92, -7, 7.0}, {8.2, -95.5, -16, 7.2}};
     t[WALL] = tube_round(wall, COUNT(wall));
     static const double upper[][4] = {{-5, -95.3, -46.3, 4.8}, {0, -95.1, -46.6, 4.8}, {5, -95.3, -46.3, 4.8},
                                       {11, -93.5, -46.9, 4.2}, {17, -90.4, -48.1, 3.1}, {24, -85.8, -50.3, 1.5}};
@@ -86,12 +86,48 @@ void body_skin_tubes(tube *t)
     static const double lower[][4] = {{-6, -93.0, -55.0, 5.4}, {0, -93.3, -55.1, 5.4}, {6, -93.0, -55.0, 5.4},
                                       {12, -90.9, -54.4, 4.8}, {18, -88, -53.0, 3.4}, {24, -85.2, -51.0, 1.6}};
     t[LOWER_LIP] = tube_round(lower, COUNT(lower));
-    static const double lid[][4] = {{16.5, -81.5, 13.2, 0.7}, {21, -86, 10.6, 0.75}, {27, -88.3, 8.8, 0.8},
-                                    {34, -87.6, 8.6, 0.8}, {40, -83.5, 10.4, 0.8}, {45.5, -77, 13.0, 0.6}};
-    t[LID_LINE] = tube_round(lid, COUNT(lid));
-    static const double crease[][4] = {{17.5, -83.5, 17.5, 0.6}, {22, -86.8, 21, 0.9}, {29, -87.6, 22.5, 1.0},
-                                       {36, -86, 22, 1.0}, {43, -81, 18.5, 0.8}, {47, -77, 15, 0.5}};
-    t[LID_CREASE] = tube_round(crease, COUNT(crease));
+    static const double muscle[][4] = {{49, 14, -32, 6}, {44, 8, -60, 6.5}, {34.5, -6, -95, 6.5}, {24, -15, -125, 6},
+                                       {14, -19.5, -155, 6}};
+    t[NECK_MUSCLE] = tube_round(muscle, COUNT(muscle));
+}
+
+/* A groove of given radii along z = height(x), with its middle on the surface that `distance` tells. */
+static tube groove_on(const bodies *b, double (*distance)(const bodies *, const double[3]), double from, double to,
+                      double (*height)(double), double radius)
+{
+    enum { POINTS = 9 };
+    double control[POINTS][4];
+    for (int i = 0; i < POINTS; i++) {
+        double s = (double)i / (POINTS - 1), p[3] = {sdf_mix(from, to, s), -115, 0};
+        p[2] = height(p[0]);
+        double high = -60; /* between the air in front and the head */
+        while (high - p[1] > 0.01) {
+            double middle[3] = {p[0], (p[1] + high) / 2, p[2]};
+            if (distance(b, middle) < 0) high = middle[1];
+            else p[1] = middle[1];
+        }
+        vec_copy(p, control[i]);
+        control[i][3] = radius * (0.55 + 0.45 * sin(M_PI * sdf_clamp(s, 0.05, 0.95)));
+    }
+    return tube_round((const double(*)[4])control, POINTS);
+}
+
+static double bare_lids(const bodies *b, const double p[3]);
+double skin_lid_line(double x)
+{
+    double u = (x - 30.5) / 14.5;
+    return 8.4 + 4.8 * u * u + 0.5 * u;
+}
+static double crease_line(double x)
+{
+    double u = (x - 30.5) / 15.5;
+    return 21.8 - 4.6 * u * u + 0.2 * u;
+}
+
+void body_skin_lids(bodies *b)
+{
+    b->skin[LID_LINE] = groove_on(b, bare_lids, 16.5, 44.5, skin_lid_line, 0.75);
+    b->skin[LID_CREASE] = groove_on(b, bare_lids, 19, 43.5, crease_line, 0.45);
 }
 
 static double ear(const bodies *b, const double p[3])
@@ -116,7 +152,7 @@ static double nose(const bodies *b, const double p[3])
     static const double ala_at[3] = {11.0, -98, -21.3}, ala[3] = {5.4, 8.8, 6.4};
     static const double columella_a[3] = {0, -107.5, -21.5}, columella_b[3] = {0, -97, -27.5};
     static const double lobule[3] = {3.8, -106.3, -18}, lobule_semi[3] = {5.2, 6.3, 6};
-    double d = sdf_union(tube_distance(&b->skin[RIDGE], p), tube_distance(&b->skin[WALL], p), 9);
+    double d = sdf_union(tube_distance(&b->skin[RIDGE], p), tube_distance(&b->skin[WALL], p), 14);
     d = sdf_union(d, sdf_ellipsoid_turned(p, ala_at, ala, 0.25, -0.35, 0.1), 4.5);
     d = sdf_union(d, sdf_cone(p, columella_a, 4.2, columella_b, 4.4), 4);
     return sdf_union(d, sdf_ellipsoid_turned(p, lobule, lobule_semi, 0, 0, 0), 5);
@@ -124,7 +160,7 @@ static double nose(const bodies *b, const double p[3])
 
 static double nostrils(const double p[3])
 {
-    static const double at[3] = {7.0, -101.5, -27.3}, semi[3] = {2.7, 5.2, 6.3};
+    static const double at[3] = {6.5, -102.0, -27.0}, semi[3] = {2.5, 4.7, 4.6};
     return sdf_ellipsoid_turned(p, at, semi, 0.1, -0.35, -0.15);
 }
 
@@ -139,29 +175,38 @@ static double mouth_groove(const double p[3])
     return fmax(fmax(fabs(p[2] - lip_line(x)) - half, p[1] - back), x - 25);
 }
 
-static double eyes(const bodies *b, const double p[3], double d)
+static double bare_lids(const bodies *b, const double p[3])
 {
-    d = sdf_union(d, sdf_ellipsoid(p, 31, -75.0, 13.5, 15.5, 12.4, 12.0), 9);
-    d = tube_cut(d, &b->skin[LID_LINE], p, 1.6);
-    return tube_cut(d, &b->skin[LID_CREASE], p, 2.6);
+    double d = radial_distance(&b->face, p);
+    return sdf_union(d, sdf_ellipsoid(p, 30.5, -75.0, 13.0, 15.5, 12.2, 12.0), 9);
 }
 
-static double neck(const double p[3])
+static double eyes(const bodies *b, const double p[3], double d)
 {
-    double t = (p[2] + 100) / 100, q[3] = {p[0], p[1], 0};
-    double d = sdf_ellipsoid(q, 0, 12 - 2 * t, 0, 50 - 4 * t, 45 - 2 * t, 1e3);
+    d = sdf_union(d, sdf_ellipsoid(p, 30.5, -75.0, 13.0, 15.5, 12.2, 12.0), 9);
+    d = tube_cut(d, &b->skin[LID_LINE], p, 0.9);
+    return tube_cut(d, &b->skin[LID_CREASE], p, 4);
+}
+
+static double neck(const bodies *b, const double p[3])
+{
+    /* elliptic column that leans forwards going up, a little waisted, with the two muscles to the breastbone */
+    double t = sdf_clamp((p[2] + 150) / 90, 0, 1.3), waist = 3.5 * (1 - 2 * t) * (1 - 2 * t);
+    double q[3] = {p[0], p[1], 0};
+    double d = sdf_ellipsoid(q, 0, 22 - 10 * t, 0, 45 + waist, 44 + 0.5 * waist, 1e3);
+    d = tube_union(d, &b->skin[NECK_MUSCLE], p, 12);
     return sdf_meet(d, p[2] + 30, 30);
 }
 
 double body_skin(const bodies *b, const double point[3])
 {
     double p[3] = {fabs(point[0]), point[1], point[2]};
-    double d = sdf_union(radial_distance(&b->face, p), neck(p), 16);
+    double d = sdf_union(radial_distance(&b->face, p), neck(b, p), 14);
     if (d > 45) return d - 20;
     if (p[1] < -60) {
         d = eyes(b, p, d);
         d = sdf_union(d, nose(b, p), 6);
-        d = sdf_cut(d, nostrils(p), 2.2);
+        d = sdf_cut(d, nostrils(p), 1.8);
         d = tube_union(d, &b->skin[UPPER_LIP], p, 2.6);
         d = tube_union(d, &b->skin[LOWER_LIP], p, 3.2);
         static const double philtrum_a[3] = {0, -99.8, -31}, philtrum_b[3] = {0, -102.3, -41};

@@ -19,7 +19,7 @@ static const double vault_points[][3] = {
     {25, -12, -8}, {24, 34, -24}};
 
 enum { /* tubes of the skull */
-    BROW, GLABELLA, LATERAL_RIM, LOWER_RIM, ARCH, ARCH_ROOT, MAXILLA_FRONTAL, NASAL, ALVEOLUS, BUTTRESS, PTERYGOID,
+    BROW, GLABELLA, NASAL_SIDE, LATERAL_RIM, LOWER_RIM, ARCH, ARCH_ROOT, MAXILLA_FRONTAL, NASAL, ALVEOLUS, BUTTRESS, PTERYGOID,
     PTERYGOID_INNER, CLIVUS, SPINE, TEMPORAL_LINE, SKULL_TUBE_COUNT
 };
 _Static_assert((int)SKULL_TUBE_COUNT <= (int)SKULL_TUBES, "room in bodies");
@@ -35,11 +35,11 @@ radial body_skull_vault(void)
 void body_skull_tubes(tube *t)
 {
     static const double brow[][4] = {{7, -86, 30.5, 4.2}, {16, -85.5, 34, 4}, {28, -83, 36.5, 3.6},
-                                     {39, -77, 35.5, 3.4}, {47.5, -68.5, 30.5, 3.8}};
+                                     {39, -77, 35.5, 3.4}, {46.5, -68.5, 30.5, 3.6}};
     t[BROW] = tube_round(brow, COUNT(brow));
     static const double glabella[][4] = {{0, -84, 40, 6}, {0, -82.5, 32, 6}, {0, -81.3, 26, 5.7}};
     t[GLABELLA] = tube_round(glabella, COUNT(glabella));
-    static const double lateral_rim[][4] = {{48.5, -67.5, 31, 3.6}, {50.3, -64, 22, 3.1}, {50.3, -62, 13, 3.3},
+    static const double lateral_rim[][4] = {{47.3, -67, 31, 3.4}, {50.3, -64, 22, 3.1}, {50.3, -62, 13, 3.3},
                                             {48.8, -64, 3, 4.5}, {46, -67, -5, 6}};
     t[LATERAL_RIM] = tube_flat(lateral_rim, COUNT(lateral_rim), (double[]){-0.35, 1, 0}, 1.5);
     static const double lower_rim[][4] = {{11, -78, 11, 2.6}, {15.5, -78.2, 4, 3.4}, {23, -77.8, -2.5, 4.4},
@@ -56,17 +56,20 @@ void body_skull_tubes(tube *t)
     t[MAXILLA_FRONTAL] = tube_round(frontal, COUNT(frontal));
     static const double nasal[][4] = {{0, -83.2, 27, 4.2}, {0, -85, 20, 3.8}, {0, -89, 13, 3.6}, {0, -93.5, 7, 3.2}};
     t[NASAL] = tube_flat(nasal, COUNT(nasal), (double[]){1, 0, 0}, 1.75);
+    static const double side[][4] = {{5.5, -85.5, 20, 2.4}, {6.3, -88.3, 13, 2.2}, {7.8, -90, 6, 2.0},
+                                     {10.8, -87.5, -2, 2.2}, {13.2, -84.5, -10, 2.4}};
+    t[NASAL_SIDE] = tube_flat(side, COUNT(side), (double[]){0.35, 1, 0}, 1.6);
     static const double alveolus[][4] = {{0, -82.2, -34, 4.9}, {5, -81.8, -34, 4.9}, {11, -79.3, -34, 5.0},
                                          {16, -75, -34, 5.0}, {19, -69, -33.5, 5.1}, {21.5, -60, -33, 5.6},
                                          {23.5, -50, -32, 5.8}, {24.3, -42.5, -30.5, 5.2}};
     t[ALVEOLUS] = tube_flat(alveolus, COUNT(alveolus), (double[]){0, 0.06, 1}, 1.95);
-    static const double buttress[][4] = {{45, -65, -8, 8}, {38, -64.5, -17, 6.5}, {31, -62.5, -24, 6},
+    static const double buttress[][4] = {{44, -64.5, -8, 7.4}, {38, -64.5, -17, 6.5}, {31, -62.5, -24, 6},
                                          {27, -60, -30, 5}};
     t[BUTTRESS] = tube_round(buttress, COUNT(buttress));
-    static const double pterygoid[][4] = {{19, -30, 2, 3}, {20, -34, -14, 2}, {23, -33, -28, 1.8}, {24, -32, -36, 1.4}};
-    t[PTERYGOID] = tube_flat(pterygoid, COUNT(pterygoid), (double[]){0.2, 1, 0}, 3);
-    static const double inner[][4] = {{14, -32, 2, 3}, {14.5, -35, -16, 1.6}, {14.5, -35, -34, 1.3}};
-    t[PTERYGOID_INNER] = tube_flat(inner, COUNT(inner), (double[]){0, 1, 0}, 3);
+    static const double pterygoid[][4] = {{19, -30, 2, 3.4}, {20, -34, -12, 2.6}, {22.5, -34.5, -24, 2.4}, {23, -34.5, -30, 2}};
+    t[PTERYGOID] = tube_flat(pterygoid, COUNT(pterygoid), (double[]){0.25, 1, 0}, 2.4);
+    static const double inner[][4] = {{14, -32, 2, 3}, {14.5, -35, -16, 2.2}, {14.5, -35.5, -29, 1.8}};
+    t[PTERYGOID_INNER] = tube_flat(inner, COUNT(inner), (double[]){0, 1, 0}, 2);
     static const double clivus[][4] = {{0, -30, 2, 14}, {0, -18, -4, 11}, {0, -4, -14, 7}};
     t[CLIVUS] = tube_flat(clivus, COUNT(clivus), (double[]){1, 0, 0}, 1.5);
     static const double spine[][4] = {{0, -78, -26, 5}, {0, -84, -25.5, 3}, {0, -88.8, -24, 1.2}};
@@ -89,7 +92,7 @@ static double orbit(const double p[3], double grow)
     vec_cross(axis, side, up);
     double u = vec_dot(d, side), v = vec_dot(d, up);
     double s = sdf_clamp(t / length, -0.2, 1);
-    double shrink = s > 0 ? 1 - 0.80 * pow(s, 1.5) : 1 + 0.12 * -s;
+    double shrink = s > 0 ? 1 - 0.97 * pow(s, 1.6) : 1 + 0.12 * -s;
     double a = 19.0 * shrink + grow, b = 16.6 * shrink + grow;
     u += 0.08 * v; /* the roof leans out, the floor in */
     double q = pow(pow(fabs(u) / a, 3) + pow(fabs(v) / b, 3), 1 / 3.0);
@@ -148,14 +151,15 @@ double body_skull(const bodies *b, const double point[3])
         d = tube_union(d, &t[LATERAL_RIM], p, 3);
         d = tube_union(d, &t[MAXILLA_FRONTAL], p, 4);
         double body = sdf_ellipsoid(p, 18, -58, -13, 18, 21.5, 17);
-        body = sdf_union(body, sdf_ellipsoid(p, 31, -66, -10, 14, 10.5, 12), 8);
-        body = sdf_union(body, sdf_ellipsoid(p, 42.5, -64.5, -8, 10, 8.5, 10), 5);
+        body = sdf_union(body, sdf_ellipsoid(p, 30, -66, -10, 15, 11.5, 13), 9);
+        body = sdf_union(body, sdf_ellipsoid(p, 41.5, -64, -8, 10, 8.5, 10), 5);
         d = sdf_union(d, body, 4);
         d = tube_union(d, &t[BUTTRESS], p, 5);
-        d = tube_union(d, &t[LOWER_RIM], p, 3.5);
+        d = tube_union(d, &t[LOWER_RIM], p, 6);
         d = sdf_union(d, sdf_ellipsoid(p, 0, -60, -26.5, 24, 22.5, 3.6), 4);
         d = tube_union(d, &t[ALVEOLUS], p, 6);
         d = tube_union(d, &t[NASAL], p, 3);
+        d = tube_union(d, &t[NASAL_SIDE], p, 4);
         d = tube_union(d, &t[PTERYGOID], p, 3);
         d = tube_union(d, &t[PTERYGOID_INNER], p, 2);
         d = roots(p, d);

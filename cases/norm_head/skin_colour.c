@@ -1,4 +1,5 @@
 #include "skin_colour.h"
+#include "bodies.h"
 #include "geometry/mem.h"
 #include "sdf.h"
 
@@ -20,11 +21,10 @@ static double vermilion(double x, double y, double z)
 static double brow(double x, double y, double z)
 {
     if (y > -50) return 0;
-    double t = (x - 12) / 36; /* from the inner end to the tail */
+    double t = (x - 10.5) / 38; /* from the inner end to the tail */
     if (t < -0.1 || t > 1.1) return 0;
-    double centre = 32.5 + 6.5 * sin(M_PI * sdf_clamp(0.15 + 0.62 * t, 0, 1)) - 4.5 * t;
-    double half = 3.6 * (1 - 0.65 * t);
-    return 0.75 * (1 - sdf_step(0.5 * half, 1.25 * half, fabs(z - centre))) * sdf_step(-0.1, 0.12, t) * (1 - sdf_step(0.85, 1.1, t));
+    double centre = 33 + 5.5 * sin(M_PI * 0.72 * sdf_clamp(t, 0, 1)) - 1.5 * t, half = 3.3 * (1 - 0.7 * t);
+    return 0.7 * (1 - sdf_step(0.3 * half, 1.5 * half, fabs(z - centre))) * sdf_step(-0.1, 0.2, t) * (1 - sdf_step(0.8, 1.1, t));
 }
 
 uint8_t *skin_colours(const surface *skin)
@@ -42,8 +42,8 @@ uint8_t *skin_colours(const surface *skin)
         blend(c, lip, vermilion(x, y, z));
         blend(c, hair, brow(x, y, z));
         if (y < -70 && x > 15 && x < 47) {
-            double u = (x - 31) / 15, line = 8.6 + 5 * u * u;
-            blend(c, lash, 0.8 * (1 - sdf_step(0.5, 1.6, fabs(z - line))) * (1 - sdf_step(0.85, 1.1, fabs(u))));
+            double off = fabs(z - skin_lid_line(x));
+            blend(c, lash, 0.8 * (1 - sdf_step(0.4, 1.6, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
         }
         for (int k = 0; k < 3; k++) rgb[3 * i + k] = (uint8_t)(sdf_clamp(c[k], 0, 255) + 0.5);
     }
