@@ -15,8 +15,7 @@ static const double head_least_mm = 150, head_most_mm = 600;
 
 import_params import_params_default(void)
 {
-    return (import_params){
-        .skin_hu = -300, .seal_mm = 8, .mesh = label_surface_params_default()};
+    return (import_params){.skin_hu = -300, .seal_mm = 8, .mesh = label_surface_params_default()};
 }
 
 void import_result_free(import_result *r)
@@ -208,6 +207,8 @@ bool import_read(const import_params *p, const command_options *o, import_result
 {
     import_result r = {.contacts = -1};
     bool good = true;
+    if (p->ct && p->from[CASE_SKIN])
+        return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
         if (!p->from[i] || (p->labels && !import_is_mesh_name(p->from[i]))) continue;
         command_progress_at(o, case_surface_name((case_surface)i), -1);

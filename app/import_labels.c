@@ -35,7 +35,8 @@ static void list_labels(const volume *v, char *text, size_t size)
     int64_t voxels = (int64_t)v->layers * v->size[0] * v->size[1] * v->size[2];
     for (int64_t i = 0; i < voxels; i++) seen[v->value[i] + 32768] = 1;
     for (int k = 0; k < 65536 && n + 16 < size; k++)
-        if (seen[k] && k != 32768) n += (size_t)snprintf(text + n, size - n, "%s%d", n ? ", " : "", k - 32768);
+        if (seen[k] && k != 32768)
+            n += (size_t)snprintf(text + n, size - n, "%s%d", n ? ", " : "", k - 32768);
     free(seen);
 }
 
@@ -53,8 +54,10 @@ static bool add_label(const volume *v, const char *path, const char *word, mask 
     const volume_segment *s = find_segment(v, word);
     long number = strtol(word, &end, 10);
     bool is_number = *word && !*end && number > INT16_MIN && number <= INT16_MAX;
-    if (s) mask_add_label(m, v, s->label, s->layer);
-    else if (is_number && number && !v->segment_count) mask_add_label(m, v, (int32_t)number, 0);
+    if (s)
+        mask_add_label(m, v, s->label, s->layer);
+    else if (is_number && number && !v->segment_count)
+        mask_add_label(m, v, (int32_t)number, 0);
     else {
         list_labels(v, known, sizeof known);
         return err_at(e, ERR_INPUT, path, 0, NULL, "has no label \"%s\"; choose by %s: %s", word,
@@ -90,13 +93,16 @@ static bool add_preset(const volume *v, const char *path, case_surface part, mas
         if (row->part != part) continue;
         const volume_segment *s = NULL;
         for (int k = 0; k < 3 && !s && row->names[k]; k++) s = find_segment(v, row->names[k]);
-        if (s) mask_add_label(m, v, s->label, s->layer);
-        else if (!v->segment_count) mask_add_label(m, v, row->label, 0);
+        if (s)
+            mask_add_label(m, v, s->label, s->layer);
+        else if (!v->segment_count)
+            mask_add_label(m, v, row->label, 0);
         if (mask_count(m) || !row->required) return true;
         char known[700];
         list_labels(v, known, sizeof known);
-        return err_at(e, ERR_INPUT, path, 0, NULL, "lacks the label of the %s that dental-segmentator makes (%d, \"%s\"); "
-                                                   "it has %s",
+        return err_at(e, ERR_INPUT, path, 0, NULL,
+                      "lacks the label of the %s that dental-segmentator makes (%d, \"%s\"); "
+                      "it has %s",
                       case_surface_name(part), row->label, row->names[0], known);
     }
     return true;
@@ -113,12 +119,13 @@ static bool mesh_part(const import_params *p, const volume *grid, const label_fi
 {
     part->from_labels = true;
     part->label_mm3 = (double)mask_count(m) * voxel_mm3(grid);
-    return label_surface_make(f, number, &p->mesh, &part->mesh, &part->made, e) || err_prefix(e, "%s", part->source);
+    return label_surface_make(f, number, &p->mesh, &part->mesh, &part->made, e) ||
+           err_prefix(e, "%s", part->source);
 }
 
 /* The head as one solid: its largest piece, openings sealed, cavities filled. */
-static bool mesh_skin(const import_params *p, const command_options *o, const volume *grid, mask *m, import_part *part,
-                      err *e)
+static bool mesh_skin(const import_params *p, const command_options *o, const volume *grid, mask *m,
+                      import_part *part, err *e)
 {
     command_progress_at(o, "skin", -1);
     part->islands_dropped = mask_keep_largest(m);
@@ -150,13 +157,17 @@ static bool read_masks(const import_params *p, const volume *v, mask *m, import_
 }
 
 /* Drops islands, fills what is enclosed and belongs to no other part. */
-static void clean_bones(const import_params *p, const volume *v, mask *m, import_result *out)
+static void clean_bones(const import_params *p, const volume *v, mask *m, import_result *out, issue_list *notes)
 {
     int64_t least = (int64_t)ceil(p->mesh.least_mm3 / voxel_mm3(v)), voxels = mask_voxels(&m[0]);
     for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
         import_part *part = &out->part[i];
         if (!mask_count(&m[i])) continue;
         part->islands_dropped = mask_drop_islands(&m[i], least, &part->island_voxels);
+        if (!mask_count(&m[i]))
+            issue_add(notes, ISSUE_WARNING, ERR_NONE, p->labels, 0, NULL,
+                      "the label of the %s has only pieces of less than %g mm^3: left out",
+                      case_surface_name((case_surface)i), p->mesh.least_mm3);
         part->cavity_voxels = mask_fill_cavities(&m[i]);
         for (int k = CASE_SKULL; k < CASE_SURFACE_COUNT; k++)
             for (int64_t at = 0; k != i && at < voxels; at++)
@@ -166,17 +177,19 @@ static void clean_bones(const import_params *p, const volume *v, mask *m, import
 
 static int64_t jaw_contacts(mask *m)
 {
-    static const case_surface upper[2] = {CASE_SKULL, CASE_UPPER_TEETH}, lower[2] = {CASE_MANDIBLE, CASE_LOWER_TEETH};
+    static const case_surface upper[2] = {CASE_SKULL, CASE_UPPER_TEETH},
+                              lower[2] = {CASE_MANDIBLE, CASE_LOWER_TEETH};
     int64_t sum = 0;
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) sum += mask_contacts(&m[upper[a]], &m[lower[b]]);
     return sum;
 }
 
-static bool mesh_bones(const import_params *p, const command_options *o, const volume *v, mask *m, import_result *out,
-                       err *e)
+static bool mesh_bones(const import_params *p, const command_options *o, const volume *v, mask *m,
+                       import_result *out, err *e)
 {
-    label_fields *f = label_fields_create(v, m + CASE_SKULL, CASE_SURFACE_COUNT - CASE_SKULL, p->mesh.sigma_voxels);
+    label_fields *f =
+        label_fields_create(v, m + CASE_SKULL, CASE_SURFACE_COUNT - CASE_SKULL, p->mesh.sigma_voxels);
     bool good = true;
     for (int i = CASE_SKULL; good && i < CASE_SURFACE_COUNT; i++) {
         if (!mask_count(&m[i])) continue;
@@ -188,8 +201,8 @@ static bool mesh_bones(const import_params *p, const command_options *o, const v
     return good;
 }
 
-static bool parts_of_labels(const import_params *p, const command_options *o, import_result *out, issue_list *notes,
-                            err *e)
+static bool parts_of_labels(const import_params *p, const command_options *o, import_result *out,
+                            issue_list *notes, err *e)
 {
     volume v;
     mask m[CASE_SURFACE_COUNT];
@@ -200,11 +213,12 @@ static bool parts_of_labels(const import_params *p, const command_options *o, im
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) m[i] = mask_new(v.size);
     bool good = read_masks(p, &v, m, out, e);
     if (good) {
-        clean_bones(p, &v, m, out);
+        clean_bones(p, &v, m, out, notes);
         out->contacts = jaw_contacts(m);
         if (out->contacts)
             issue_add(notes, ISSUE_WARNING, ERR_NONE, p->labels, 0, NULL,
-                      "upper and lower jaw touch at %lld pairs of voxels (joints or teeth): the surfaces meet there",
+                      "upper and lower jaw touch at %lld pairs of voxels (joints or teeth): the surfaces "
+                      "meet there",
                       (long long)out->contacts);
         good = mesh_bones(p, o, &v, m, out, e);
     }
@@ -219,28 +233,33 @@ static bool parts_of_labels(const import_params *p, const command_options *o, im
     return good;
 }
 
-static bool skin_of_ct(const import_params *p, const command_options *o, import_result *out, issue_list *notes, err *e)
+static bool skin_of_ct(const import_params *p, const command_options *o, import_result *out,
+                       issue_list *notes, err *e)
 {
     volume v;
     import_part *part = &out->part[CASE_SKIN];
-    if (part->mesh.vertex_count) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
+    if (part->mesh.vertex_count)
+        return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     command_progress_at(o, "ct", -1);
     if (!volume_read(p->ct, &v, e)) return false;
     mask head = mask_new(v.size);
     mask_add_above(&head, &v, p->skin_hu);
     snprintf(part->source, sizeof part->source, "%s, above %g HU", p->ct, p->skin_hu);
     part->thresholded = true;
-    bool good = mask_count(&head) > 0 ? mesh_skin(p, o, &v, &head, part, e)
-                                      : err_at(e, ERR_INPUT, p->ct, 0, NULL, "has no voxel above %g HU", p->skin_hu);
+    bool good = mask_count(&head) > 0
+                    ? mesh_skin(p, o, &v, &head, part, e)
+                    : err_at(e, ERR_INPUT, p->ct, 0, NULL, "has no voxel above %g HU", p->skin_hu);
     if (good)
         issue_add(notes, ISSUE_WARNING, ERR_NONE, p->ct, 0, NULL,
-                  "the skin was cut out by its grey value: headrest, tubes and dressings belong to it where they touch");
+                  "the skin was cut out by its grey value: headrest, tubes and dressings belong to it where "
+                  "they touch");
     mask_free(&head);
     volume_free(&v);
     return good;
 }
 
-bool import_labels(const import_params *p, const command_options *o, import_result *out, issue_list *notes, err *e)
+bool import_labels(const import_params *p, const command_options *o, import_result *out, issue_list *notes,
+                   err *e)
 {
     if (p->labels && !parts_of_labels(p, o, out, notes, e)) return false;
     return !p->ct || skin_of_ct(p, o, out, notes, e);

@@ -1,6 +1,6 @@
-/* label_surface: closed surfaces of the parts of a label map, without the steps of its voxels. Each part's indicator is
- * smoothed with a Gaussian; a point belongs to the part whose smoothed indicator is largest there (interpolated
- * trilinearly). The mesh is made in mm, with geometry/label_mesher. */
+/* label_surface: closed surfaces of the parts of a label map, without the steps of its voxels. Each part's
+ * indicator is smoothed with a Gaussian; a point belongs to the part whose smoothed indicator is largest
+ * there (interpolated trilinearly). The mesh is made in mm, with geometry/label_mesher. */
 #pragma once
 #include "geometry/mask.h"
 #include "geometry/surface.h"
@@ -31,8 +31,8 @@ void label_fields_destroy(label_fields **f);
 /* Number of the part at p (LPS mm), -1 outside all. */
 int label_fields_at(const label_fields *f, const double p[3]);
 
-/* The boundary of one part, outward, closed (at the border of the volume too) and manifold. The caller frees *out.
- * Refuses (ERR_GEOMETRY) a part that is empty or smaller than least_mm3. report may be NULL. */
+/* The boundary of one part, outward, closed (at the border of the volume too) and manifold. The caller frees
+ * *out. Refuses (ERR_GEOMETRY) a part that is empty or smaller than least_mm3. report may be NULL. */
 bool label_surface_make(const label_fields *f, int part, const label_surface_params *p, surface *out,
                         label_surface_report *report, err *e) MUST_CHECK;
 

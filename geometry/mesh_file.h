@@ -7,29 +7,32 @@ extern "C" {
 #endif
 
 typedef struct mesh_file_report {
-    bool tagged; /* the file carries SPACE=LPS or SPACE=RAS; a tag wins over the caller's word */
-    bool ras;    /* it said RAS (or, untagged, the caller did) and was turned to LPS */
-    int32_t welded_vertices;   /* merged into another at exactly the same place */
+    bool tagged;             /* the file carries SPACE=LPS or SPACE=RAS; a tag wins over the caller's word */
+    bool ras;                /* it said RAS (or, untagged, the caller did) and was turned to LPS */
+    int32_t welded_vertices; /* merged into another at exactly the same place */
     int32_t dropped_triangles; /* that named a vertex twice */
     int32_t split_polygons;    /* of more than three corners, split as fans */
 } mesh_file_report;
 
 typedef enum mesh_space { MESH_SPACE_FROM_FILE, MESH_SPACE_LPS, MESH_SPACE_RAS } mesh_space;
 
-/* .ply and .off through CGAL (double, vertex numbers kept), .stl .obj .gltf .glb through assimp (float, all meshes of
- * the file, welded, because these formats repeat a vertex in every triangle or group). The result is LPS; numbers are
- * taken as mm without a guess, but glTF is in metres with +y up by definition and is turned: (x, y, z) m ->
- * 1000 (x, -z, y). Untagged files are taken as `space`, FROM_FILE meaning LPS. The caller frees *out. Refuses
- * (ERR_INPUT, with file) unknown extensions and tags, unreadable or truncated files, vertex numbers out of range,
- * coordinates that are not finite, files without triangles. report may be NULL. */
-bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_file_report *report, err *e) MUST_CHECK;
+/* .ply and .off through CGAL (double, vertex numbers kept), .stl .obj .gltf .glb through assimp (float, all
+ * meshes of the file, welded, because these formats repeat a vertex in every triangle or group). The result
+ * is LPS; numbers are taken as mm without a guess, but glTF is in metres with +y up by definition and is
+ * turned: (x, y, z) m -> 1000 (x, -z, y). Untagged files are taken as `space`, FROM_FILE meaning LPS. The
+ * caller frees *out. Refuses (ERR_INPUT, with file) unknown extensions and tags, unreadable or truncated
+ * files, vertex numbers out of range, coordinates that are not finite, files without triangles. report may be
+ * NULL. */
+bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_file_report *report,
+                       err *e) MUST_CHECK;
 
-/* Merges vertices at exactly the same place into the first of them, then drops triangles that name a vertex twice.
- * Unused vertices stay. Adds to the report's counts. */
+/* Merges vertices at exactly the same place into the first of them, then drops triangles that name a vertex
+ * twice. Unused vertices stay. Adds to the report's counts. */
 void mesh_weld(surface *s, mesh_file_report *report);
 
-/* .ply (binary little-endian, double), .stl (binary, float), .obj; tagged SPACE=LPS. rgb[3*vertex_count] (0..255) may
- * be NULL and is written to .ply only. The file appears whole or not at all. Refuses (ERR_USAGE) other extensions. */
+/* .ply (binary little-endian, double), .stl (binary, float), .obj; tagged SPACE=LPS. rgb[3*vertex_count]
+ * (0..255) may be NULL and is written to .ply only. The file appears whole or not at all. Refuses (ERR_USAGE)
+ * other extensions. */
 bool mesh_write_surface(const surface *s, const uint8_t *rgb, const char *path, err *e) MUST_CHECK;
 
 typedef struct point_array { /* a named array of doubles per node, for VTU files */
@@ -38,9 +41,10 @@ typedef struct point_array { /* a named array of doubles per node, for VTU files
     const double *value; /* [components*vertex_count] */
 } point_array;
 
-/* .vtu, appended raw, SPACE=LPS in the field data; cell array "region". An array named "displacement" becomes the
- * vectors that viewers warp by. Refuses (ERR_USAGE) other extensions. */
-bool mesh_write_tets(const tetmesh *m, const point_array *arrays, int array_count, const char *path, err *e) MUST_CHECK;
+/* .vtu, appended raw, SPACE=LPS in the field data; cell array "region". An array named "displacement" becomes
+ * the vectors that viewers warp by. Refuses (ERR_USAGE) other extensions. */
+bool mesh_write_tets(const tetmesh *m, const point_array *arrays, int array_count, const char *path,
+                     err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -8,8 +8,9 @@
 extern "C" {
 #endif
 
-/* Reads AffineTransform, MatrixOffsetTransformBase, Euler3DTransform, VersorRigid3DTransform (double or float) from
- * .tfm or .txt. Refuses (ERR_INPUT, with line) other types, more than one transform, a non-rigid matrix, .h5. */
+/* Reads AffineTransform, MatrixOffsetTransformBase, Euler3DTransform, VersorRigid3DTransform (double or
+ * float) from .tfm or .txt. Refuses (ERR_INPUT, with line) other types, more than one transform, a non-rigid
+ * matrix, .h5. */
 bool transform_read(const char *path, rigid *out, err *e) MUST_CHECK;
 bool transform_write(const rigid *motion, const char *path, err *e) MUST_CHECK;
 

@@ -1,5 +1,5 @@
-/* write_whole: outputs that appear whole or not at all. The bytes go to a temporary name beside the target, are
- * flushed to the disk and take the target's name in one step. */
+/* write_whole: outputs that appear whole or not at all. The bytes go to a temporary name beside the target,
+ * are flushed to the disk and take the target's name in one step. */
 #pragma once
 #include "geometry/err.h"
 #include <stddef.h>
@@ -15,7 +15,8 @@ typedef struct whole_file {
 
 /* Refuses (ERR_RESOURCE) a folder that is missing or not writable. After true, end with close or abandon. */
 bool whole_file_open(const char *path, whole_file *out, err *e) MUST_CHECK;
-/* An existing file of that name is replaced. On refusal the temporary file is gone and the old file is as it was. */
+/* An existing file of that name is replaced. On refusal the temporary file is gone and the old file is as it
+ * was. */
 bool whole_file_close(whole_file *w, err *e) MUST_CHECK;
 void whole_file_abandon(whole_file *w); /* idempotent */
 

@@ -19,7 +19,8 @@ void fcsv_free(fcsv_file *f)
     *f = (fcsv_file){0};
 }
 
-/* Splits in place at commas outside quotes; a quote counts at the start of a field only, "" inside is one quote. */
+/* Splits in place at commas outside quotes; a quote counts at the start of a field only, "" inside is one
+ * quote. */
 static int split(char *line, char *field[MAX_FIELDS])
 {
     int n = 0;
@@ -27,12 +28,15 @@ static int split(char *line, char *field[MAX_FIELDS])
     bool quoted = false;
     field[n++] = to;
     for (; *from; from++) {
-        if (*from == '"' && quoted && from[1] == '"') *to++ = *from++;
-        else if (*from == '"' && (quoted || to == field[n - 1])) quoted = !quoted;
+        if (*from == '"' && quoted && from[1] == '"')
+            *to++ = *from++;
+        else if (*from == '"' && (quoted || to == field[n - 1]))
+            quoted = !quoted;
         else if (*from == ',' && !quoted && n < MAX_FIELDS) {
             *to++ = 0;
             field[n++] = to;
-        } else *to++ = *from;
+        } else
+            *to++ = *from;
     }
     *to = 0;
     return n;
@@ -64,7 +68,8 @@ static bool read_comment(char *text, const char *path, int line, int *system, co
         *system = !strcasecmp(value, "LPS") || !strcmp(value, "1")   ? 1
                   : !strcasecmp(value, "RAS") || !strcmp(value, "0") ? 0
                                                                      : -1;
-        if (*system < 0) return err_at(e, ERR_INPUT, path, line, "CoordinateSystem", "must be LPS or RAS, is %s", value);
+        if (*system < 0)
+            return err_at(e, ERR_INPUT, path, line, "CoordinateSystem", "must be LPS or RAS, is %s", value);
     } else if (!strcasecmp(key, "columns")) {
         char *field[MAX_FIELDS];
         int n = split(value, field);
@@ -82,13 +87,15 @@ static bool read_comment(char *text, const char *path, int line, int *system, co
     return true;
 }
 
-static bool read_row(char *text, const char *path, int line, int system, const columns *at, fcsv_row *row, err *e)
+static bool read_row(char *text, const char *path, int line, int system, const columns *at, fcsv_row *row,
+                     err *e)
 {
     char *field[MAX_FIELDS];
     int n = split(text, field);
     if (system < 0)
-        return err_at(e, ERR_INPUT, path, line, NULL,
-                      "a point before any line \"# CoordinateSystem = LPS\" (or RAS): add the line that is true");
+        return err_at(
+            e, ERR_INPUT, path, line, NULL,
+            "a point before any line \"# CoordinateSystem = LPS\" (or RAS): add the line that is true");
     if (n <= at->x || n <= at->y || n <= at->z || n <= at->label)
         return err_at(e, ERR_INPUT, path, line, NULL, "has %d columns: too few for x, y, z and label", n);
     /* Slicer 5 appends two columns to the 14 named ones: the status of the position, and who made it. */
@@ -99,14 +106,16 @@ static bool read_row(char *text, const char *path, int line, int system, const c
     row->defined = value == POSITION_DEFINED;
     row->line = line;
     const char *label = trim(field[at->label]);
-    if (strlen(label) >= sizeof row->label) return err_at(e, ERR_INPUT, path, line, NULL, "the label is too long");
+    if (strlen(label) >= sizeof row->label)
+        return err_at(e, ERR_INPUT, path, line, NULL, "the label is too long");
     memcpy(row->label, label, strlen(label) + 1);
     if (!row->defined) return true;
     const int column[3] = {at->x, at->y, at->z};
     for (int c = 0; c < 3; c++)
         if (!read_number(field[column[c]], row->xyz + c))
-            return err_at(e, ERR_INPUT, path, line, NULL, "the landmark \"%s\" has \"%.40s\" for %c, must be a number",
-                          label, field[column[c]], 'x' + c);
+            return err_at(e, ERR_INPUT, path, line, NULL,
+                          "the landmark \"%s\" has \"%.40s\" for %c, must be a number", label,
+                          field[column[c]], 'x' + c);
     if (system == 0) {
         row->xyz[0] = -row->xyz[0];
         row->xyz[1] = -row->xyz[1];
@@ -140,7 +149,9 @@ bool fcsv_read(const char *path, fcsv_file *out, err *e)
     if (good && ferror(in)) good = err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
     free(text);
     fclose(in);
-    if (good) *out = f;
-    else fcsv_free(&f);
+    if (good)
+        *out = f;
+    else
+        fcsv_free(&f);
     return good;
 }

@@ -82,7 +82,8 @@ static part_field smooth_part(const mask *m, double sigma)
     for (int32_t k = RADIUS; k < f.size[2] - RADIUS; k++)
         for (int32_t j = RADIUS; j < f.size[1] - RADIUS; j++)
             for (int32_t i = RADIUS; i < f.size[0] - RADIUS; i++) {
-                int64_t from = ((int64_t)(k + f.low[2]) * m->size[1] + (j + f.low[1])) * m->size[0] + (i + f.low[0]);
+                int64_t from =
+                    ((int64_t)(k + f.low[2]) * m->size[1] + (j + f.low[1])) * m->size[0] + (i + f.low[0]);
                 f.value[((int64_t)k * f.size[1] + j) * f.size[0] + i] = (float)m->on[from];
             }
     for (int axis = 0; axis < 3; axis++) {
@@ -199,8 +200,8 @@ static int32_t drop_specks(surface *s, double least_mm3)
     return dropped;
 }
 
-/* The mesher's surface is the boundary of tetrahedra: closed, but where two sheets come nearer than its triangles
- * measure, four of them can share an edge. */
+/* The mesher's surface is the boundary of tetrahedra: closed, but where two sheets come nearer than its
+ * triangles measure, four of them can share an edge. */
 static bool make_manifold(surface *s, int32_t *crowded_edges, err *e)
 {
     int32_t open_edges;
@@ -245,7 +246,8 @@ bool label_surface_make(const label_fields *f, int part, const label_surface_par
     label_surface_report r = {0};
     bool good = make_manifold(&s, &r.crowded_edges, e);
     if (good) r.pieces_dropped = drop_specks(&s, p->least_mm3);
-    if (good && !s.triangle_count) good = err_set(e, ERR_GEOMETRY, "no piece of the part encloses %g mm^3", p->least_mm3);
+    if (good && !s.triangle_count)
+        good = err_set(e, ERR_GEOMETRY, "no piece of the part encloses %g mm^3", p->least_mm3);
     if (!good) {
         surface_free(&s);
         return false;

@@ -70,13 +70,17 @@ static bool read_markups(const char *path, landmarks *out, int32_t *skipped, err
             const char *fault = label_fault(&l, label);
             char pointer[96];
             snprintf(pointer, sizeof pointer, "/markups/%zu/controlPoints/%zu/label", i, k);
-            if (fault) good = json_file_refuse(&f, pointer, e, "the landmark \"%s\" %s", label, fault);
-            else landmarks_set(&l, label, xyz);
+            if (fault)
+                good = json_file_refuse(&f, pointer, e, "the landmark \"%s\" %s", label, fault);
+            else
+                landmarks_set(&l, label, xyz);
         }
     }
     json_file_free(&f);
-    if (good) *out = l;
-    else landmarks_free(&l);
+    if (good)
+        *out = l;
+    else
+        landmarks_free(&l);
     return good;
 }
 
@@ -89,13 +93,18 @@ static bool read_fcsv(const char *path, landmarks *out, int32_t *skipped, err *e
     for (int32_t i = 0; good && i < f.count; i++) {
         const fcsv_row *row = f.row + i;
         const char *fault = label_fault(&l, row->label);
-        if (!row->defined) ++*skipped;
-        else if (fault) good = err_at(e, ERR_INPUT, path, row->line, NULL, "the landmark \"%s\" %s", row->label, fault);
-        else landmarks_set(&l, row->label, row->xyz);
+        if (!row->defined)
+            ++*skipped;
+        else if (fault)
+            good = err_at(e, ERR_INPUT, path, row->line, NULL, "the landmark \"%s\" %s", row->label, fault);
+        else
+            landmarks_set(&l, row->label, row->xyz);
     }
     fcsv_free(&f);
-    if (good) *out = l;
-    else landmarks_free(&l);
+    if (good)
+        *out = l;
+    else
+        landmarks_free(&l);
     return good;
 }
 
@@ -108,11 +117,13 @@ bool landmarks_read(const char *path, landmarks *out, int32_t *skipped, err *e)
     } else if (file_name_ends(path, ".json")) {
         if (!read_markups(path, &l, &missing, e)) return false;
     } else {
-        return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of landmark file; read are .mrk.json and .fcsv");
+        return err_at(e, ERR_INPUT, path, 0, NULL,
+                      "unknown kind of landmark file; read are .mrk.json and .fcsv");
     }
     if (!l.count) {
         landmarks_free(&l);
-        return err_at(e, ERR_INPUT, path, 0, NULL, "holds no landmark with a defined position (%d skipped)", missing);
+        return err_at(e, ERR_INPUT, path, 0, NULL, "holds no landmark with a defined position (%d skipped)",
+                      missing);
     }
     *out = l;
     if (skipped) *skipped = missing;

@@ -8,8 +8,8 @@
 bool markups_open(const char *path, json_file *out, const json_t **list, err *e) MUST_CHECK;
 /* Refuses a type other than `type`, units other than mm, an unknown coordinate system. */
 bool markups_check(const json_file *f, size_t index, const char *type, bool *ras, err *e) MUST_CHECK;
-/* Control point `k` of markup `index`: *defined false (nothing else set) if its position was not placed. *label is
- * borrowed and may be "". xyz in LPS. */
+/* Control point `k` of markup `index`: *defined false (nothing else set) if its position was not placed.
+ * *label is borrowed and may be "". xyz in LPS. */
 bool markups_point(const json_file *f, size_t index, size_t k, bool ras, bool *defined, const char **label,
                    double xyz[3], err *e) MUST_CHECK;
 size_t markups_point_count(const json_file *f, size_t index);

@@ -18,7 +18,10 @@ void mask_free(mask *m)
     *m = (mask){0};
 }
 
-int64_t mask_voxels(const mask *m) { return (int64_t)m->size[0] * m->size[1] * m->size[2]; }
+int64_t mask_voxels(const mask *m)
+{
+    return (int64_t)m->size[0] * m->size[1] * m->size[2];
+}
 
 int64_t mask_count(const mask *m)
 {
@@ -147,8 +150,8 @@ int64_t mask_fill_cavities(mask *m)
     return filled;
 }
 
-/* Lower envelope of the parabolas d[q] + (w (x - q))^2 along one line: Felzenszwalb and Huttenlocher, "Distance
- * transforms of sampled functions", Theory of Computing 8 (2012), section 2. */
+/* Lower envelope of the parabolas d[q] + (w (x - q))^2 along one line: Felzenszwalb and Huttenlocher,
+ * "Distance transforms of sampled functions", Theory of Computing 8 (2012), section 2. */
 static void distance_line(const float *d, float *out, int n, double w, int *apex, double *from)
 {
     int last = -1;
@@ -249,7 +252,8 @@ int64_t mask_contacts(const mask *a, const mask *b)
                 int64_t at = (k * ny + j) * nx + i;
                 const bool next[3] = {i + 1 < nx, j + 1 < ny, k + 1 < nz};
                 for (int c = 0; c < 3; c++)
-                    if (next[c]) count += (a->on[at] && b->on[at + stride[c]]) || (b->on[at] && a->on[at + stride[c]]);
+                    if (next[c])
+                        count += (a->on[at] && b->on[at + stride[c]]) || (b->on[at] && a->on[at + stride[c]]);
             }
     return count;
 }

@@ -1,7 +1,7 @@
-/* Slicer's rule (vtkMRMLMarkupsPlaneNode): object to node = baseToNode * objectToBase, the plane's point is the last
- * column and its normal the third. For three points p0, p1, p2 the base is x = p1 - p0, z = x cross (p2 - p0) at p0,
- * whatever baseToNode says. In LPS files rows 0 and 1 of both matrices are negated (no conjugation); `center` and
- * `normal` are written but never read. */
+/* Slicer's rule (vtkMRMLMarkupsPlaneNode): object to node = baseToNode * objectToBase, the plane's point is
+ * the last column and its normal the third. For three points p0, p1, p2 the base is x = p1 - p0, z = x cross
+ * (p2 - p0) at p0, whatever baseToNode says. In LPS files rows 0 and 1 of both matrices are negated (no
+ * conjugation); `center` and `normal` are written but never read. */
 #include "geometry/plane_file.h"
 #include "geometry/mem.h"
 #include "geometry/src/file_name.h"
@@ -14,7 +14,8 @@
 typedef double matrix4[4][4];
 
 /* The matrix `key` in RAS; the identity if the file has none. */
-static bool read_matrix(const json_file *f, size_t index, const char *key, bool ras, matrix4 out, bool *present, err *e)
+static bool read_matrix(const json_file *f, size_t index, const char *key, bool ras, matrix4 out,
+                        bool *present, err *e)
 {
     const json_t *list = json_object_get(json_array_get(json_object_get(f->root, "markups"), index), key);
     char pointer[64];
@@ -32,11 +33,13 @@ static bool read_matrix(const json_file *f, size_t index, const char *key, bool 
     return true;
 }
 
-static bool three_point_base(const json_file *f, size_t index, double p[][3], int defined, matrix4 base, err *e)
+static bool three_point_base(const json_file *f, size_t index, double p[][3], int defined, matrix4 base,
+                             err *e)
 {
     char pointer[64];
     snprintf(pointer, sizeof pointer, "/markups/%zu/controlPoints", index);
-    if (defined < 3) return json_file_refuse(f, pointer, e, "a three-point plane needs 3 defined points, has %d", defined);
+    if (defined < 3)
+        return json_file_refuse(f, pointer, e, "a three-point plane needs 3 defined points, has %d", defined);
     double x[3], y[3], z[3], d[3];
     vec_sub(p[1], p[0], x);
     vec_sub(p[2], p[0], d);
@@ -56,7 +59,8 @@ static bool three_point_base(const json_file *f, size_t index, double p[][3], in
 
 static bool read_plane(const json_file *f, size_t index, cut_plane *out, err *e)
 {
-    const json_t *m = json_array_get(json_object_get(f->root, "markups"), index), *kind = json_object_get(m, "planeType");
+    const json_t *m = json_array_get(json_object_get(f->root, "markups"), index),
+                 *kind = json_object_get(m, "planeType");
     const char *type = kind ? json_string_value(kind) : "3Points";
     bool ras, placed, have_base, have_object;
     char pointer[64];
@@ -79,10 +83,12 @@ static bool read_plane(const json_file *f, size_t index, cut_plane *out, err *e)
         if (!three_point_base(f, index, p, defined, base, e)) return false;
     } else if (type && (!strcmp(type, "PointNormal") || !strcmp(type, "pointNormal"))) {
         if (!have_base || !defined)
-            return json_file_refuse(f, pointer, e, "a plane of this type needs a defined point and baseToNode");
+            return json_file_refuse(f, pointer, e,
+                                    "a plane of this type needs a defined point and baseToNode");
         for (int i = 0; i < 3; i++) base[i][3] = p[0][i];
     } else {
-        return json_file_refuse(f, pointer, e, "must be \"3Points\" or \"PointNormal\", is \"%s\"", type ? type : "");
+        return json_file_refuse(f, pointer, e, "must be \"3Points\" or \"PointNormal\", is \"%s\"",
+                                type ? type : "");
     }
     double normal[3] = {0}, point[3];
     for (int i = 0; i < 3; i++) {
@@ -92,7 +98,8 @@ static bool read_plane(const json_file *f, size_t index, cut_plane *out, err *e)
             point[i] += base[i][k] * object[k][3];
         }
     }
-    if (!(vec_normalize(normal) > 1e-6)) return json_file_refuse(f, pointer, e, "the plane's matrices give no normal");
+    if (!(vec_normalize(normal) > 1e-6))
+        return json_file_refuse(f, pointer, e, "the plane's matrices give no normal");
     for (int i = 0; i < 3; i++) {
         out->normal[i] = i < 2 ? -normal[i] : normal[i];
         out->point[i] = i < 2 ? -point[i] : point[i];
@@ -100,7 +107,8 @@ static bool read_plane(const json_file *f, size_t index, cut_plane *out, err *e)
     return true;
 }
 
-/* Slicer keeps the name of a plane in the name of its file; our own files hold several and a name for each. */
+/* Slicer keeps the name of a plane in the name of its file; our own files hold several and a name for each.
+ */
 static bool read_label(const json_file *f, size_t index, size_t count, cut_plane *out, err *e)
 {
     const json_t *name = json_object_get(json_array_get(json_object_get(f->root, "markups"), index), "name");
@@ -112,8 +120,10 @@ static bool read_label(const json_file *f, size_t index, size_t count, cut_plane
     } else {
         const char *base = file_name_base(f->path), *dot = strchr(base, '.');
         int length = dot && dot != base ? (int)(dot - base) : (int)strlen(base);
-        if (count == 1) snprintf(text, sizeof text, "%.*s", length, base);
-        else snprintf(text, sizeof text, "%.*s_%zu", length, base, index + 1);
+        if (count == 1)
+            snprintf(text, sizeof text, "%.*s", length, base);
+        else
+            snprintf(text, sizeof text, "%.*s_%zu", length, base, index + 1);
     }
     if (!*text || strlen(text) >= sizeof out->label)
         return json_file_refuse(f, pointer, e, "the name of a plane must have 1 to 63 bytes");
@@ -135,7 +145,8 @@ bool planes_read(const char *path, cut_plane **out, int *count, err *e)
         good = read_plane(&f, i, planes + i, e) && read_label(&f, i, n, planes + i, e);
         for (size_t k = 0; good && k < i; k++)
             if (!strcmp(planes[k].label, planes[i].label))
-                good = json_file_refuse(&f, "/markups", e, "the plane \"%s\" is there twice", planes[i].label);
+                good =
+                    json_file_refuse(&f, "/markups", e, "the plane \"%s\" is there twice", planes[i].label);
     }
     json_file_free(&f);
     if (!good) {

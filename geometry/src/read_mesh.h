@@ -15,8 +15,9 @@ typedef struct polygons {
 
 void polygons_free(polygons *p);
 
-/* .ply and .off, with CGAL (geometry/cgal/read_mesh.cpp): double coordinates are kept bit for bit. assimp is not used
- * for PLY because 5.2.5 reads a binary file whose data start with 0x0A as nonsense, and reports success. */
+/* .ply and .off, with CGAL (geometry/cgal/read_mesh.cpp): double coordinates are kept bit for bit. assimp is
+ * not used for PLY because 5.2.5 reads a binary file whose data start with 0x0A as nonsense, and reports
+ * success. */
 bool read_mesh_polygons(const char *path, polygons *out, err *e) MUST_CHECK;
 /* .stl .obj .gltf .glb, with assimp: all meshes of the scene, in place, float precision. */
 bool read_mesh_scene(const char *path, polygons *out, err *e) MUST_CHECK;

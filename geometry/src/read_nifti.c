@@ -6,22 +6,31 @@
 static double number_at(const nifti_image *n, int64_t i)
 {
     switch (n->datatype) {
-    case DT_UINT8: return ((const uint8_t *)n->data)[i];
-    case DT_INT8: return ((const int8_t *)n->data)[i];
-    case DT_UINT16: return ((const uint16_t *)n->data)[i];
-    case DT_INT16: return ((const int16_t *)n->data)[i];
-    case DT_UINT32: return ((const uint32_t *)n->data)[i];
-    case DT_INT32: return ((const int32_t *)n->data)[i];
-    case DT_FLOAT32: return (double)((const float *)n->data)[i];
-    case DT_FLOAT64: return ((const double *)n->data)[i];
-    default: return (double)NAN; /* not reached: known_type */
+    case DT_UINT8:
+        return ((const uint8_t *)n->data)[i];
+    case DT_INT8:
+        return ((const int8_t *)n->data)[i];
+    case DT_UINT16:
+        return ((const uint16_t *)n->data)[i];
+    case DT_INT16:
+        return ((const int16_t *)n->data)[i];
+    case DT_UINT32:
+        return ((const uint32_t *)n->data)[i];
+    case DT_INT32:
+        return ((const int32_t *)n->data)[i];
+    case DT_FLOAT32:
+        return (double)((const float *)n->data)[i];
+    case DT_FLOAT64:
+        return ((const double *)n->data)[i];
+    default:
+        return (double)NAN; /* not reached: known_type */
     }
 }
 
 static bool known_type(int type)
 {
-    return type == DT_UINT8 || type == DT_INT8 || type == DT_UINT16 || type == DT_INT16 || type == DT_UINT32 ||
-           type == DT_INT32 || type == DT_FLOAT32 || type == DT_FLOAT64;
+    return type == DT_UINT8 || type == DT_INT8 || type == DT_UINT16 || type == DT_INT16 ||
+           type == DT_UINT32 || type == DT_INT32 || type == DT_FLOAT32 || type == DT_FLOAT64;
 }
 
 static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e)
@@ -29,7 +38,8 @@ static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e
     if (n->nt > 1 || n->nu > 1 || n->nv > 1 || n->nw > 1)
         return err_at(e, ERR_INPUT, path, 0, NULL, "more than three dimensions");
     if (!known_type(n->datatype))
-        return err_at(e, ERR_INPUT, path, 0, NULL, "values of type %s are not read", nifti_datatype_string(n->datatype));
+        return err_at(e, ERR_INPUT, path, 0, NULL, "values of type %s are not read",
+                      nifti_datatype_string(n->datatype));
     if (n->sform_code <= 0 && n->qform_code <= 0)
         return err_at(e, ERR_INPUT, path, 0, NULL,
                       "has neither sform nor qform: place and sides of the head are unknown");
@@ -48,8 +58,8 @@ static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e
         double number = number_at(n, i);
         if (scaled) number = n->scl_slope * number + n->scl_inter;
         if (!read_volume_round(number, v->value + i))
-            return err_at(e, ERR_INPUT, path, 0, NULL, "voxel %lld holds %g, which does not fit into 16 bits", (long long)i,
-                          number);
+            return err_at(e, ERR_INPUT, path, 0, NULL, "voxel %lld holds %g, which does not fit into 16 bits",
+                          (long long)i, number);
     }
     return true;
 }

@@ -1,5 +1,5 @@
-/* read_volume: one function per outside library. Private. Both fill size, layers, origin, step (LPS mm), value and
- * segments of *out, which the caller frees, and leave the checks of the grid to volume_file. */
+/* read_volume: one function per outside library. Private. Both fill size, layers, origin, step (LPS mm),
+ * value and segments of *out, which the caller frees, and leave the checks of the grid to volume_file. */
 #pragma once
 #include "geometry/volume_file.h"
 
@@ -7,6 +7,7 @@ bool read_volume_nrrd(const char *path, volume *out, err *e) MUST_CHECK;  /* tee
 bool read_volume_nifti(const char *path, volume *out, err *e) MUST_CHECK; /* libnifti2 */
 
 /* The three sizes in range and few enough voxels; allocates value. */
-bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layers, volume *out, err *e) MUST_CHECK;
+bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layers, volume *out,
+                          err *e) MUST_CHECK;
 /* Rounds a stored number to 16 bits; false if it does not fit or is not finite. */
 bool read_volume_round(double number, int16_t *out);

@@ -8,12 +8,14 @@
 enum { VTK_TETRA = 10 };
 
 /* Announces a block of the appended part and moves the offset past it (an 8-byte length, then the data). */
-static void announce(FILE *to, const char *type, const char *name, int components, uint64_t bytes, uint64_t *offset)
+static void announce(FILE *to, const char *type, const char *name, int components, uint64_t bytes,
+                     uint64_t *offset)
 {
-    fprintf(to,
-            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
-            "\"/>\n",
-            type, name, components, *offset);
+    fprintf(
+        to,
+        "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
+        "\"/>\n",
+        type, name, components, *offset);
     *offset += 8 + bytes;
 }
 
@@ -38,10 +40,12 @@ static void write_header(const tetmesh *m, const point_array *arrays, int array_
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
             "<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">76 80 83 0</Array>\n"
-            "</FieldData>\n<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64 "\">\n<PointData%s>\n",
+            "</FieldData>\n<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64
+            "\">\n<PointData%s>\n",
             n, cells, vectors);
     for (int i = 0; i < array_count; i++)
-        announce(to, "Float64", arrays[i].name, arrays[i].components, 8 * n * (uint64_t)arrays[i].components, &offset);
+        announce(to, "Float64", arrays[i].name, arrays[i].components, 8 * n * (uint64_t)arrays[i].components,
+                 &offset);
     fprintf(to, "</PointData>\n<CellData Scalars=\"region\">\n");
     announce(to, "Int32", "region", 1, 4 * cells, &offset);
     fprintf(to, "</CellData>\n<Points>\n");
@@ -56,7 +60,8 @@ static void write_header(const tetmesh *m, const point_array *arrays, int array_
 static void write_data(const tetmesh *m, const point_array *arrays, int array_count, FILE *to)
 {
     uint64_t n = (uint64_t)m->vertex_count, cells = (uint64_t)m->tet_count;
-    for (int i = 0; i < array_count; i++) put_block(to, arrays[i].value, 8 * n * (uint64_t)arrays[i].components);
+    for (int i = 0; i < array_count; i++)
+        put_block(to, arrays[i].value, 8 * n * (uint64_t)arrays[i].components);
     put_block(to, m->region, 4 * cells);
     put_block(to, m->xyz, 24 * n);
     uint64_t bytes = 32 * cells;

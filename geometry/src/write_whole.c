@@ -25,7 +25,8 @@ static bool cannot_write(const char *path, int number, err *e)
     return err_at(e, ERR_RESOURCE, path, 0, NULL, "cannot be written: %s", strerror(number));
 }
 
-/* Makes the new name itself survive a power cut. Some file systems cannot do this; the data are safe anyway. */
+/* Makes the new name itself survive a power cut. Some file systems cannot do this; the data are safe anyway.
+ */
 static void sync_folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -123,7 +124,8 @@ bool whole_folder_open(const char *path, whole_folder *out, err *e)
     if (!*clean) {
         err_set(e, ERR_USAGE, "the name of the new folder is empty");
     } else if (occupied(clean) == 2) {
-        err_at(e, ERR_INPUT, clean, 0, NULL, "exists and is not an empty folder; choose a new name or remove it");
+        err_at(e, ERR_INPUT, clean, 0, NULL,
+               "exists and is not an empty folder; choose a new name or remove it");
     } else {
         temporary = temporary_name(clean);
         nftw(temporary, remove_entry, 8, FTW_DEPTH | FTW_PHYS);

@@ -58,7 +58,7 @@ static void sealing_closes_narrow_openings_only(void **state)
         mask m = box_mask(40);
         fill(&m, (const int[3]){5, 5, 0}, (const int[3]){34, 34, 39}, 1);
         fill(&m, (const int[3]){12, 12, 10}, (const int[3]){28, 28, 30}, 0); /* a chamber */
-        int half = wide ? 5 : 1;                                              /* a nostril of 11 or 3 mm */
+        int half = wide ? 5 : 1;                                             /* a nostril of 11 or 3 mm */
         fill(&m, (const int[3]){20 - half, 5, 20 - half}, (const int[3]){20 + half, 11, 20 + half}, 0);
         mask_seal(&m, &grid, 3);
         assert_int_equal(*at(&m, 20, 20, 20), !wide);

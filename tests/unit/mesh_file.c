@@ -88,8 +88,9 @@ static void text_stl_is_read_with_its_tag(void **state)
     err e = {0};
     surface back = {0};
     mesh_file_report r;
-    write_text("text.stl", "solid made by hand SPACE=RAS\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 2 3\n"
-                           "vertex 1 5 3\nendloop\nendfacet\nendsolid\n");
+    write_text("text.stl",
+               "solid made by hand SPACE=RAS\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 2 3\n"
+               "vertex 1 5 3\nendloop\nendfacet\nendsolid\n");
     assert_ok(mesh_read_surface("text.stl", MESH_SPACE_FROM_FILE, &back, &r, &e));
     assert_true(r.tagged && r.ras);
     assert_int_equal(back.vertex_count, 3);
@@ -120,7 +121,8 @@ static void obj_groups_become_one_welded_surface_and_polygons_are_split(void **s
     err e = {0};
     surface back = {0};
     mesh_file_report r;
-    write_text("groups.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\ng floor\nf 1 4 3 2\ng side\nf 1 2 5\n");
+    write_text("groups.obj",
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\ng floor\nf 1 4 3 2\ng side\nf 1 2 5\n");
     assert_ok(mesh_read_surface("groups.obj", MESH_SPACE_FROM_FILE, &back, &r, &e));
     assert_int_equal(back.vertex_count, 5);
     assert_int_equal(back.triangle_count, 3);
@@ -135,8 +137,9 @@ static void a_file_in_ras_reads_as_the_same_surface_in_lps(void **state)
     err e = {0};
     surface ras = {0}, told = {0}, off = {0};
     mesh_file_report r;
-    const char *body = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
-                       "property list uchar int vertex_indices\nend_header\n1 2 3\n4 5 6\n7 8 10\n3 0 1 2\n3 1 1 2\n";
+    const char *body =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+        "property list uchar int vertex_indices\nend_header\n1 2 3\n4 5 6\n7 8 10\n3 0 1 2\n3 1 1 2\n";
     char text[400];
     snprintf(text, sizeof text, "ply\nformat ascii 1.0\ncomment 3D Slicer. SPACE=RAS\n%s", body);
     write_text("ras.ply", text);
@@ -192,17 +195,21 @@ static void broken_files_are_refused_by_name(void **state)
         {"noextension", "x", "noextension: unknown kind"},
         {"empty.ply", "", "empty.ply: the file is empty"},
         {"text.ply", "hello\n", "text.ply: is not a complete PLY"},
-        {"none.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-                     "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+        {"none.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
          "none.ply: holds no triangles"},
-        {"range.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 1 2\n",
+        {"range.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 1 2\n",
          "range.ply: face 0 names vertex 1, but there are 1"},
-        {"minus.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 -1 0\n",
+        {"minus.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 -1 0\n",
          "minus.ply: face 0 names vertex -1"},
-        {"huge.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\n"
-                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+        {"huge.ply",
+         "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
          "huge.ply: is not a complete PLY"},
         {"huge.off", "OFF\n99999999999999 1 0\n0 0 0\n", "huge.off: is not a complete OFF"},
         {"tag.ply", "ply\nformat ascii 1.0\ncomment SPACE=LAS\nelement vertex 3\nend_header\n",
@@ -341,7 +348,7 @@ static void vtu_blocks_lie_where_the_header_says(void **state)
     static const struct {
         const char *name;
         uint64_t size;
-    } block[] = {{"displacement", 120}, {"pressure_kpa", 40}, {"region", 8},  {"Points", 120},
+    } block[] = {{"displacement", 120}, {"pressure_kpa", 40}, {"region", 8}, {"Points", 120},
                  {"connectivity", 64},  {"offsets", 16},      {"types", 2}};
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
         char key[64];

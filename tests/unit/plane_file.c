@@ -41,7 +41,8 @@ static void a_three_point_plane_means_the_same_in_ras_and_lps(void **state)
     int count = 0;
     /* counter-clockwise from above: normal +z on either side; "center" and "normal" must not be used */
     write_text("le_fort.mrk.json",
-               "{\"markups\":[{\"type\":\"Plane\",\"coordinateSystem\":\"RAS\",\"center\":[9,9,9],\"normal\":[1,0,0],"
+               "{\"markups\":[{\"type\":\"Plane\",\"coordinateSystem\":\"RAS\",\"center\":[9,9,9],\"normal\":"
+               "[1,0,0],"
                "\"controlPoints\":[{\"label\":\"P-1\",\"position\":[1,2,3]},"
                "{\"label\":\"P-2\",\"position\":[11,2,3]},{\"label\":\"P-3\",\"position\":[1,12,3]}]}]}");
     assert_ok(planes_read("le_fort.mrk.json", &plane, &count, &e));
@@ -54,8 +55,9 @@ static void a_three_point_plane_means_the_same_in_ras_and_lps(void **state)
     free(plane);
 }
 
-/* RAS: baseToNode B = rotation about x by 90 deg then origin o; objectToBase shifts by s along the base's axes and
- * turns about y by t. Normal = B col(t), point = B s + o; here by hand. In the LPS file rows 0 and 1 are negated. */
+/* RAS: baseToNode B = rotation about x by 90 deg then origin o; objectToBase shifts by s along the base's
+ * axes and turns about y by t. Normal = B col(t), point = B s + o; here by hand. In the LPS file rows 0 and 1
+ * are negated. */
 static void matrices_of_an_lps_file_are_read_by_rows(void **state)
 {
     (void)state;
@@ -71,7 +73,8 @@ static void matrices_of_an_lps_file_are_read_by_rows(void **state)
     /* RAS: normal = 0.6 x - 0.8 y, point = (11, 20 - 3, 30 + 2) */
     const double normal[3] = {-0.6, 0.8, 0}, point[3] = {-11, -17, 32};
     const char *type[2] = {"PointNormal", "3Points"};
-    const char *more[2] = {"", ",{\"label\":\"P-2\",\"position\":[-15,-20,30]},{\"label\":\"P-3\",\"position\":[-10,-20,37]}"};
+    const char *more[2] = {
+        "", ",{\"label\":\"P-2\",\"position\":[-15,-20,30]},{\"label\":\"P-3\",\"position\":[-10,-20,37]}"};
     for (int i = 0; i < 2; i++) {
         char text[1024];
         snprintf(text, sizeof text, lps, type[i], more[i]);
@@ -92,16 +95,20 @@ static void wrong_planes_are_refused_with_file_and_line(void **state)
         const char *path, *text, *says;
     } bad[] = {
         {"line.mrk.json",
-         "{\"markups\":[{\"type\":\"Plane\",\n\"controlPoints\":[{\"position\":[0,0,0]},{\"position\":[1,1,1]},"
+         "{\"markups\":[{\"type\":\"Plane\",\n\"controlPoints\":[{\"position\":[0,0,0]},{\"position\":[1,1,1]"
+         "},"
          "{\"position\":[2,2,2]}]}]}",
          "line.mrk.json:2: "},
         {"two.mrk.json", "{\"markups\":[{\"type\":\"Plane\",\n\"controlPoints\":[{\"position\":[0,0,0]}]}]}",
          "two.mrk.json:2: "},
-        {"fit.mrk.json", "{\"markups\":[{\"type\":\"Plane\",\n\"planeType\":\"PlaneFit\",\"controlPoints\":[]}]}",
+        {"fit.mrk.json",
+         "{\"markups\":[{\"type\":\"Plane\",\n\"planeType\":\"PlaneFit\",\"controlPoints\":[]}]}",
          "fit.mrk.json:2: "},
-        {"matrix.mrk.json", "{\"markups\":[{\"type\":\"Plane\",\n\"objectToBase\":[1,2],\"controlPoints\":[]}]}",
+        {"matrix.mrk.json",
+         "{\"markups\":[{\"type\":\"Plane\",\n\"objectToBase\":[1,2],\"controlPoints\":[]}]}",
          "matrix.mrk.json:2: "},
-        {"points.mrk.json", "{\"markups\":[\n{\"type\":\"Fiducial\",\"controlPoints\":[]}]}", "points.mrk.json:2: "},
+        {"points.mrk.json", "{\"markups\":[\n{\"type\":\"Fiducial\",\"controlPoints\":[]}]}",
+         "points.mrk.json:2: "},
         {"plane.txt", "x", "plane.txt: unknown kind"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -1,5 +1,5 @@
-/* Label maps: NRRD in two frames and gzip, segment keys and layers, NIfTI, refusals. The files are made here byte by
- * byte, so that they test the reader and not a writer with the same mistake. */
+/* Label maps: NRRD in two frames and gzip, segment keys and layers, NIfTI, refusals. The files are made here
+ * byte by byte, so that they test the reader and not a writer with the same mistake. */
 #include "tests/check.h"
 #include "geometry/mem.h"
 #include "geometry/volume_file.h"
@@ -24,7 +24,8 @@ static int16_t count_up[24];
 /* Place of voxel (i,j,k). */
 static void place(const volume *v, int i, int j, int k, double out[3])
 {
-    for (int c = 0; c < 3; c++) out[c] = v->origin[c] + i * v->step[0][c] + j * v->step[1][c] + k * v->step[2][c];
+    for (int c = 0; c < 3; c++)
+        out[c] = v->origin[c] + i * v->step[0][c] + j * v->step[1][c] + k * v->step[2][c];
 }
 
 static void check_places(const volume *v)
@@ -45,11 +46,13 @@ static void check_places(const volume *v)
 static void nrrd_means_the_same_in_all_three_frames(void **state)
 {
     (void)state;
-    static const char *const frame[3] = {
-        "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0,2)\nspace origin: (-10,-20,30)\n\n",
-        ("space: right-anterior-superior\nspace directions: (-0.5,0,0) (0,-0.75,0) (0,0,2)\nspace origin: (10,20,30)\n"
-         "space units: \"mm\" \"mm\" \"mm\"\n\n"),
-        "space: left-anterior-superior\nspace directions: (0.5,0,0) (0,-0.75,0) (0,0,2)\nspace origin: (-10,20,30)\n\n"};
+    static const char *const frame[3] = {"space: left-posterior-superior\nspace directions: (0.5,0,0) "
+                                         "(0,0.75,0) (0,0,2)\nspace origin: (-10,-20,30)\n\n",
+                                         ("space: right-anterior-superior\nspace directions: (-0.5,0,0) "
+                                          "(0,-0.75,0) (0,0,2)\nspace origin: (10,20,30)\n"
+                                          "space units: \"mm\" \"mm\" \"mm\"\n\n"),
+                                         "space: left-anterior-superior\nspace directions: (0.5,0,0) "
+                                         "(0,-0.75,0) (0,0,2)\nspace origin: (-10,20,30)\n\n"};
     for (int i = 0; i < 3; i++) {
         err e = {0};
         char head[512];
@@ -72,7 +75,8 @@ static void gzip_nrrd_is_read(void **state)
     write_bytes("body.raw", "", count_up, sizeof count_up);
     write_bytes("zip.nrrd",
                 "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 3 4\nendian: little\nencoding: gzip\nspace: "
-                "left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0,2)\nspace origin: (-10,-20,30)\n\n",
+                "left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0,2)\nspace origin: "
+                "(-10,-20,30)\n\n",
                 "", 0);
     if (system("gzip -c body.raw >> zip.nrrd")) {
         print_message("no gzip program here: skipped\n");
@@ -90,8 +94,10 @@ static void overlapping_segments_become_layers(void **state)
     volume v;
     uint8_t data[2 * 2 * 1 * 1] = {1, 7, 3, 0}; /* voxel 0: 1 and 7, voxel 1: 3 and 0 */
     write_bytes("a.seg.nrrd",
-                "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 1 1\nkinds: list domain domain domain\nencoding: raw\n"
-                "space: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+                "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 2 1 1\nkinds: list domain domain "
+                "domain\nencoding: raw\n"
+                "space: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace "
+                "origin: (0,0,0)\n"
                 "Segment0_ID:=s0\nSegment0_Name:=Upper Skull\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n"
                 "Segment1_ID:=s1\nSegment1_Name:=Mandible\nSegment1_LabelValue:=7\nSegment1_Layer:=1\n\n",
                 data, sizeof data);
@@ -191,7 +197,8 @@ static void wrong_volumes_are_refused_by_name(void **state)
     write_bytes("nospace.nrrd", NRRD_HEAD "\n", count_up, sizeof count_up);
     write_bytes("cut.nrrd", NRRD_HEAD "space: left-posterior-superior\n" GRID, count_up, 40);
     write_bytes("scanner.nrrd", NRRD_HEAD "space: scanner-xyz\n" GRID, count_up, sizeof count_up);
-    write_bytes("units.nrrd", NRRD_HEAD "space: left-posterior-superior\nspace units: \"m\" \"m\" \"m\"\n" GRID, count_up,
+    write_bytes("units.nrrd",
+                NRRD_HEAD "space: left-posterior-superior\nspace units: \"m\" \"m\" \"m\"\n" GRID, count_up,
                 sizeof count_up);
     write_bytes("sheared.nrrd",
                 NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0.2,2)\n"
@@ -201,13 +208,16 @@ static void wrong_volumes_are_refused_by_name(void **state)
                 NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0,0)\n"
                           "space origin: (-10,-20,30)\n\n",
                 count_up, sizeof count_up);
-    write_bytes("rgb.nrrd",
-                "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain domain\nencoding: "
-                "raw\nspace: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: "
-                "(0,0,0)\n\n",
-                count_up, 24);
-    write_bytes("label.seg.nrrd", NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) "
-                                            "(0,0,2)\nspace origin: (0,0,0)\nSegment0_Name:=Skull\n\n",
+    write_bytes(
+        "rgb.nrrd",
+        "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain "
+        "domain\nencoding: "
+        "raw\nspace: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: "
+        "(0,0,0)\n\n",
+        count_up, 24);
+    write_bytes("label.seg.nrrd",
+                NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) "
+                          "(0,0,2)\nspace origin: (0,0,0)\nSegment0_Name:=Skull\n\n",
                 count_up, sizeof count_up);
     float big[24] = {40000};
     write_bytes("big.nrrd",
