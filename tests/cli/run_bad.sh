@@ -1,13 +1,14 @@
 #!/bin/sh
-# run_bad.sh GNATHOS FOLDER [--accept]: every folder of FOLDER/bad is laid over a copy of FOLDER/base and `command` is run
-# there. Each must end with the exit status in the first line of `expected`, print exactly the rest of it on stderr,
-# nothing on stdout, and leave every file as it was. --accept writes what was printed into `expected`, to be reviewed.
+# run_bad.sh GNATHOS FOLDER [NAMES [--accept]]: every folder of FOLDER/bad (whose name matches NAMES) is laid over a copy of
+# FOLDER/base and `command` is run there. Each must end with the exit status in the first line of `expected`, print
+# exactly the rest of it on stderr, nothing on stdout, and leave every file as it was. --accept writes what was printed
+# into `expected`, to be reviewed: tests/cli/run_bad.sh build/app/gnathos tests/cli "mesh_*" --accept
 set -u
-gnathos=$1 here=$(cd "$2" && pwd) accept=${3:-}
+gnathos=$(realpath "$1") here=$(cd "$2" && pwd) names=${3:-*} accept=${4:-}
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
-for bad in "$here"/bad/*/; do
+for bad in "$here"/bad/$names/; do
     name=$(basename "$bad")
     rm -rf "$work/case"
     cp -R "$here/base" "$work/case"

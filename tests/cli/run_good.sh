@@ -1,7 +1,7 @@
 #!/bin/sh
 # run_good.sh GNATHOS FOLDER: what is right is accepted, with results on stdout and nothing else there.
 set -u
-gnathos=$1 here=$(cd "$2" && pwd) failed=0
+gnathos=$(realpath "$1") here=$(cd "$2" && pwd) failed=0
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cp -R "$here/base" "$work/case"
