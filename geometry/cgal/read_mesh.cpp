@@ -4,6 +4,7 @@
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/Simple_cartesian.h>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -21,6 +22,29 @@ struct captured_cerr {
     std::string first_line() const { return text.str().substr(0, text.str().find('\n')); }
 };
 
+// CGAL makes room for as many vertices and faces as the header promises before it reads one.
+static bool off_is_large_enough(std::ifstream &in)
+{
+    in.seekg(0, std::ios::end);
+    const double bytes = static_cast<double>(in.tellg());
+    in.seekg(0);
+    double counts[2] = {0, 0};
+    int found = 0;
+    for (std::string word; found < 2 && in >> word;) {
+        char *end = nullptr;
+        const double number = std::strtod(word.c_str(), &end);
+        if (word[0] == '#')
+            std::getline(in, word);
+        else if (*end == 0)
+            counts[found++] = number;
+        else if (word.find("OFF") == std::string::npos)
+            break;
+    }
+    in.clear();
+    in.seekg(0);
+    return found == 2 && counts[0] <= bytes / 6 && counts[1] <= bytes / 4; // "0 0 0\n", "1 0\n"
+}
+
 bool read_mesh_polygons(const char *path, polygons *out, err *e)
 {
     return guarded(e, path, [&] {
@@ -33,7 +57,8 @@ bool read_mesh_polygons(const char *path, polygons *out, err *e)
         bool good = false;
         captured_cerr said;
         try {
-            good = off ? CGAL::IO::read_OFF(in, points, faces) : CGAL::IO::read_PLY(in, points, faces);
+            good = !off ? CGAL::IO::read_PLY(in, points, faces)
+                        : off_is_large_enough(in) && CGAL::IO::read_OFF(in, points, faces);
         } catch (const std::bad_alloc &) { // sizes in a broken header
         } catch (const std::length_error &) {
         } catch (const CGAL::Failure_exception &) {
