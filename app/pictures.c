@@ -9,8 +9,8 @@ static void find_region(const pictures_input *in, comparison *c)
     const landmark *nasion = landmarks_find(in->points, "N"), *menton = landmarks_find(in->points, "Me");
     if (!nasion || !menton) return;
     for (int k = 0; k < 3; k++) c->region_centre[k] = (nasion->xyz[k] + menton->xyz[k]) / 2;
-    vec_axpy(c->region_centre, 35, in->frame->posterior, c->region_centre);
-    c->region_radius_mm = 0.88 * vec_distance(nasion->xyz, menton->xyz);
+    vec_axpy(c->region_centre, 22, in->frame->posterior, c->region_centre);
+    c->region_radius_mm = 0.86 * vec_distance(nasion->xyz, menton->xyz);
 }
 
 bool pictures_write(const pictures_input *in, const char *folder, bool list, err *e)
