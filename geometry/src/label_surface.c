@@ -181,21 +181,21 @@ static double size_of_part(const double p[3], int region, void *context)
 static int32_t drop_specks(surface *s, double least_mm3)
 {
     int32_t *component, count = surface_components(s, &component), dropped = 0;
-    double *volume = NEW_ARRAY(double, count);
+    double *mm3 = NEW_ARRAY(double, count);
     uint8_t *keep = NEW_ARRAY(uint8_t, s->triangle_count);
     for (int32_t t = 0; t < s->triangle_count; t++) {
         const int32_t *v = s->tri + 3 * (size_t)t;
-        volume[component[t]] += vec_six_volume(s->xyz, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1],
+        mm3[component[t]] += vec_six_volume(s->xyz, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1],
                                                s->xyz + 3 * (size_t)v[2]) /
                                 6;
     }
-    for (int32_t k = 0; k < count; k++) dropped += fabs(volume[k]) < least_mm3;
-    for (int32_t t = 0; t < s->triangle_count; t++) keep[t] = fabs(volume[component[t]]) >= least_mm3;
+    for (int32_t k = 0; k < count; k++) dropped += fabs(mm3[k]) < least_mm3;
+    for (int32_t t = 0; t < s->triangle_count; t++) keep[t] = fabs(mm3[component[t]]) >= least_mm3;
     surface kept = surface_select(s, keep);
     surface_free(s);
     *s = kept;
     free(component);
-    free(volume);
+    free(mm3);
     free(keep);
     return dropped;
 }
