@@ -65,6 +65,7 @@ void command_print_json(json_t *object, const char *verb_name);
 bool app_interrupted(void);
 
 int command_check(int argc, char **argv);
+int command_cut(int argc, char **argv);
 int command_import(int argc, char **argv);
 int command_new(int argc, char **argv);
 int command_help(int argc, char **argv);

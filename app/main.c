@@ -28,7 +28,7 @@ const verb verbs[] = {
     {"new", "make a case of a synthetic head", WITH_CGAL(command_new)},
     {"import", "make a case from meshes or a label map", WITH_CGAL(command_import)},
     {"check", "read a case and a plan and name everything wrong in them", WITH_CGAL(command_check)},
-    {"cut", "cut the bones along the osteotomies", NOT_BUILT},
+    {"cut", "cut the bones along the osteotomies", WITH_CGAL(command_cut)},
     {"prepare", "cut the bones and mesh the soft tissue of a case", WITH_CGAL(command_prepare)},
     {"predict", "predict the face after a plan", WITH_SIM(command_predict)},
     {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},

@@ -1,7 +1,7 @@
 #include "app/prepared_report.h"
 #include <stdio.h>
 
-static json_t *repair_json(const repair_report *r)
+json_t *repair_report_json(const repair_report *r)
 {
     return json_pack("{si si si si sf si sf si si sb sf}", "welded_vertices", r->welded_vertices,
                      "degenerate_triangles", r->degenerate_triangles, "components_found", r->components_found,
@@ -57,8 +57,8 @@ json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s
                   r->hole_nodes, "skin", r->skin_nodes, "lip_pairs", r->lip_pairs, "not_moved_onto_bone",
                   r->not_snapped, "max_bone_gap_mm", r->max_bone_gap_mm);
     json_t *out =
-        json_pack("{s{so so so} so so so sf sf ss s{sf sf}}", "repair", "skin", repair_json(&a->skin_repair),
-                  "skull", repair_json(&a->skull_repair), "mandible", repair_json(&a->mandible_repair),
+        json_pack("{s{so so so} so so so sf sf ss s{sf sf}}", "repair", "skin", repair_report_json(&a->skin_repair),
+                  "skull", repair_report_json(&a->skull_repair), "mandible", repair_report_json(&a->mandible_repair),
                   "cuts", cuts_report(&a->cuts), "mesh", mesh, "attachment", attach, "skin_gap_mean_mm",
                   r->skin_gap_mean_mm, "skin_gap_max_mm", r->skin_gap_max_mm, "left_out", r->left_out,
                   "seconds", "bones", bones_s, "tissue", tissue_s);
