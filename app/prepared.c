@@ -49,9 +49,9 @@ static bool hash_inputs(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
 static void put_surface(pack_file *f, const char *name, const surface *s)
 {
     char key[PACK_NAME_SIZE];
-    snprintf(key, sizeof key, "%s.xyz", name);
+    snprintf(key, sizeof key, "%.24s.xyz", name);
     pack_put(f, key, s->xyz, 3 * (size_t)s->vertex_count * sizeof *s->xyz);
-    snprintf(key, sizeof key, "%s.tri", name);
+    snprintf(key, sizeof key, "%.24s.tri", name);
     pack_put(f, key, s->tri, 3 * (size_t)s->triangle_count * sizeof *s->tri);
 }
 
@@ -59,9 +59,9 @@ static bool take_surface(const pack_file *f, const char *name, surface *s)
 {
     char key[PACK_NAME_SIZE];
     size_t vertices = 0, triangles = 0;
-    snprintf(key, sizeof key, "%s.xyz", name);
+    snprintf(key, sizeof key, "%.24s.xyz", name);
     s->xyz = pack_take(f, key, 3 * sizeof *s->xyz, &vertices);
-    snprintf(key, sizeof key, "%s.tri", name);
+    snprintf(key, sizeof key, "%.24s.tri", name);
     s->tri = pack_take(f, key, 3 * sizeof *s->tri, &triangles);
     s->vertex_count = (int32_t)vertices;
     s->triangle_count = (int32_t)triangles;

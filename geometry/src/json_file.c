@@ -2,14 +2,13 @@
  * the text again along the pointer. The text was parsed before, so the walk can rely on its syntax. */
 #include "geometry/json_file.h"
 #include "geometry/mem.h"
+#include "geometry/write_whole.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { MAX_BYTES = 64 << 20 };
 
@@ -199,22 +198,10 @@ bool json_file_vec3(const json_file *f, const json_t *value, const char *pointer
 
 bool json_file_write(const json_t *root, const char *path, err *e)
 {
-    size_t size = strlen(path) + 32;
-    char *part = mem_alloc(size, 1);
-    snprintf(part, size, "%s.part-%ld", path, (long)getpid());
-    FILE *out = fopen(part, "wb");
-    bool ok =
-        out && !json_dumpf(root, out, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) && fputc('\n', out) != EOF;
-    int why = errno;
-    if (out) {
-        if (ok && (fflush(out) || fsync(fileno(out)))) ok = false, why = errno;
-        if (fclose(out) && ok) ok = false, why = errno;
-    }
-    if (ok && rename(part, path)) ok = false, why = errno;
-    if (!ok) {
-        unlink(part);
-        err_at(e, ERR_RESOURCE, path, 0, NULL, "cannot be written: %s", strerror(why));
-    }
-    free(part);
-    return ok;
+    whole_file w;
+    if (!whole_file_open(path, &w, e)) return false;
+    /* A write that fails stays marked on the stream and is found by whole_file_close. */
+    json_dumpf(root, w.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    fputc('\n', w.stream);
+    return whole_file_close(&w, e);
 }

@@ -142,12 +142,10 @@ static void what_is_written_is_read_back_to_the_last_bit(void **state)
     err e = {0};
     double want[3] = {1.0 / 3, -1e-300, 6.02214076e23};
     json_t *root = json_pack("{s:[f,f,f], s:s}", "b", want[0], want[1], want[2], "a", "after b");
-    char path[64], part[96];
+    char path[64];
     snprintf(path, sizeof path, "written-%ld.json", (long)getpid());
-    snprintf(part, sizeof part, "%s.part-%ld", path, (long)getpid());
     assert_ok(json_file_write(root, path, &e));
     json_decref(root);
-    assert_int_equal(access(part, F_OK), -1);
     json_file f;
     assert_ok(json_file_read(path, &f, &e));
     double got[3];
@@ -164,6 +162,7 @@ static void writing_where_nothing_can_be_written_is_refused(void **state)
     err e = {0};
     json_t *root = json_object();
     assert_refused(json_file_write(root, "/no/such/folder/x.json", &e), ERR_RESOURCE);
+    assert_refused(json_file_write(root, "/proc/x.json", &e), ERR_RESOURCE);
     json_decref(root);
 }
 
