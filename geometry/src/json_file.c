@@ -200,8 +200,10 @@ bool json_file_write(const json_t *root, const char *path, err *e)
 {
     whole_file w;
     if (!whole_file_open(path, &w, e)) return false;
-    /* A write that fails stays marked on the stream and is found by whole_file_close. */
-    json_dumpf(root, w.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    fputc('\n', w.stream);
+    if (json_dumpf(root, w.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) && !ferror(w.stream)) {
+        whole_file_abandon(&w);
+        return err_at(e, ERR_INTERNAL, path, 0, NULL, "cannot be put into JSON");
+    }
+    fputc('\n', w.stream); /* a write that failed stays marked on the stream; whole_file_close finds it */
     return whole_file_close(&w, e);
 }
