@@ -113,39 +113,35 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
 #endif
 
 /* Writes the output folder. Only an equilibrium becomes meshes and pictures; a failed solve leaves its record. */
-static bool write_all(const struct input *in, outcome *o, err *e)
+static bool write_all(const struct input *in, outcome *o, output_dir *dir, err *e)
 {
-    output_dir dir;
-    if (!output_dir_open(in->out, in->force, &dir, e)) return false;
     bool ok = true;
     double start = seconds();
     if (o->points) {
         command_progress_at(&in->common, "writing the meshes", 0.8);
-        ok = outcome_write_meshes(o, &dir, e);
+        ok = outcome_write_meshes(o, dir, e);
         o->write_s = seconds() - start;
 #if GNATHOS_WITH_RENDER
         if (ok && !in->no_pictures) {
             command_progress_at(&in->common, "drawing the pictures", 0.85);
-            ok = draw(o, &dir, e);
+            ok = draw(o, dir, e);
         }
 #endif
         o->pictures_s = seconds() - start - o->write_s;
     }
     if (ok && app_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
     if (ok) {
-        char *path = output_dir_file(&dir, "outcome.json");
+        char *path = output_dir_file(dir, "outcome.json");
         json_t *record = outcome_json(o);
         ok = json_file_write(record, path, e);
         json_decref(record);
         free(path);
     }
-    if (ok) return output_dir_close(&dir, e);
-    output_dir_abandon(&dir);
-    return false;
+    return ok;
 }
 
-static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, bool *solved,
-                    err *e)
+static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, output_dir *dir,
+                    bool *solved, err *e)
 {
     plan_file plan;
     plan_moves moves;
@@ -169,7 +165,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         o.skin = &skin;
         o.points = &points;
     }
-    ok = ok && write_all(in, &o, e);
+    ok = ok && write_all(in, &o, dir, e) && output_dir_close(dir, e);
     if (ok && in->common.json) command_print_json(outcome_json(&o), "predict");
     else if (ok) {
         outcome_print(&o);
@@ -195,15 +191,22 @@ int command_predict(int argc, char **argv)
     prepared p = {0};
     bool solved = false;
     double start = seconds();
-    /* a wrong plan is told before the minutes of preparation */
+    output_dir dir = {0};
+    /* a wrong plan or folder is told before the minutes of preparation */
     if (!case_file_load(in.case_path[0], &c, &e) || !landmarks_read(c.landmarks, &points, NULL, &e) ||
-        !plan_moves_load(in.plan, &c, &points, &plan, &moves, &e) ||
-        !prepared_get(&c, in.cache, show_progress, &in.common, &p, &e))
+        !plan_moves_load(in.plan, &c, &points, &plan, &moves, &e) || !output_dir_open(in.out, in.force, &dir, &e))
         return command_fail(&e);
+    if (!prepared_get(&c, in.cache, show_progress, &in.common, &p, &e)) {
+        output_dir_abandon(&dir);
+        return command_fail(&e);
+    }
     landmarks_free(&points);
-    bool ok = predict(&in, &c, &p, seconds() - start, &solved, &e);
+    bool ok = predict(&in, &c, &p, seconds() - start, &dir, &solved, &e);
     prepared_free(&p);
-    if (!ok) return command_fail(&e);
+    if (!ok) {
+        output_dir_abandon(&dir);
+        return command_fail(&e);
+    }
     if (!solved) {
         err_set(&e, ERR_NOT_CONVERGED, "%s: the solve did not reach equilibrium, so there is no face to show; %s/outcome.json "
                 "has its record", in.plan, in.out);

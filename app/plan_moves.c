@@ -1,5 +1,6 @@
 #include "app/plan_moves.h"
 #include "geometry/frame.h"
+#include "geometry/rig.h"
 #include "geometry/vec.h"
 #include <string.h>
 
@@ -20,33 +21,14 @@ static const double *reference(const landmarks *l, segment_id s)
     return NULL;
 }
 
-static rigid turned(const plan_segment *s, const head_frame *f, const double pivot[3])
-{
-    const double radian = M_PI / 180;
-    rigid roll = rigid_rotation(pivot, f->posterior, s->roll_deg * radian);
-    rigid pitch = rigid_rotation(pivot, f->left, s->pitch_deg * radian);
-    rigid yaw = rigid_rotation(pivot, f->up, s->yaw_deg * radian);
-    rigid both = rigid_compose(&pitch, &roll), all = rigid_compose(&yaw, &both);
-    rigid shift = rigid_translation(s->translate_mm);
-    return rigid_compose(&shift, &all);
-}
-
-static rigid along_head(const head_frame *f, double advance_mm, double lift_mm)
-{
-    double t[3];
-    for (int c = 0; c < 3; c++) t[c] = -advance_mm * f->posterior[c] + lift_mm * f->up[c];
-    return rigid_translation(t);
-}
-
 /* The segment's own move; false after an issue. */
-static bool own_move(const plan_file *p, segment_id id, const head_frame *f, const landmarks *l, rigid *out,
-                     issue_list *issues)
+static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segment_move *out, issue_list *issues)
 {
     const plan_segment *s = &p->segment[id];
     const landmark *named = *s->pivot ? landmarks_find(l, s->pivot) : NULL;
     char where[64];
     snprintf(where, sizeof where, "segments.%s", segment_name(id));
-    *out = rigid_identity();
+    *out = (segment_move){.kind = MOVE_NONE};
     if (s->form == FORM_NONE) return true;
     if (!reference(l, id)) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, p->path, s->line, where,
@@ -59,16 +41,13 @@ static bool own_move(const plan_file *p, segment_id id, const head_frame *f, con
         return false;
     }
     const double *pivot = s->has_pivot_point ? s->pivot_mm : named ? named->xyz : reference(l, id);
-    if (s->form == FORM_ANGLES)
-        *out = turned(s, f, pivot);
-    else if (s->form == FORM_MATRIX)
-        *out = s->motion;
-    else if (id == SEGMENT_MAXILLA)
-        *out = along_head(f, p->maxilla_advance_mm, p->maxilla_impaction_mm);
-    else if (id == SEGMENT_DISTAL)
-        *out = along_head(f, p->mandible_advance_mm, 0);
-    else
-        *out = along_head(f, p->chin_advance_mm, 0);
+    out->pitch_deg = s->pitch_deg;
+    out->yaw_deg = s->yaw_deg;
+    out->roll_deg = s->roll_deg;
+    vec_copy(s->translate_mm, out->translate_mm);
+    vec_copy(pivot, out->pivot_mm);
+    out->motion = s->motion;
+    if (s->form != FORM_SHORT) out->kind = s->form == FORM_ANGLES ? MOVE_ANGLES : MOVE_RIGID;
     return true;
 }
 
@@ -126,7 +105,11 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
                      issue_list *issues)
 {
     plan_moves m = {0};
-    rigid own[SEGMENT_COUNT];
+    rig_controls q = rig_controls_default();
+    q.maxilla_advance_mm = p->maxilla_advance_mm;
+    q.maxilla_impaction_mm = p->maxilla_impaction_mm;
+    q.mandible_advance_mm = p->mandible_advance_mm;
+    q.chin_advance_mm = p->chin_advance_mm;
     head_frame f;
     err e = {0};
     int errors = issue_count(issues, ISSUE_ERROR);
@@ -134,12 +117,17 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
         issue_add(issues, ISSUE_ERROR, e.code, c->landmarks, 0, NULL, "%s", e.text);
         return false;
     }
-    for (int i = 0; i < SEGMENT_COUNT; i++) (void)own_move(p, (segment_id)i, &f, l, &own[i], issues);
+    for (int i = 0; i < SEGMENT_COUNT; i++) (void)own_move(p, (segment_id)i, l, &q.move[i], issues);
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
+    if (!rig_motion(&q, &f, NULL, m.move, &e)) {
+        issue_add(issues, ISSUE_ERROR, e.code, p->path, 0, NULL, "%s", e.text);
+        return false;
+    }
+    rigid own[SEGMENT_COUNT], distal_back = rigid_inverse(&m.move[SEGMENT_DISTAL]);
+    memcpy(own, m.move, sizeof own);
+    own[SEGMENT_CHIN] = rigid_compose(&distal_back, &m.move[SEGMENT_CHIN]);
     measure(p, c, l, &f, own, m.measure, issues);
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
-    memcpy(m.move, own, sizeof own);
-    m.move[SEGMENT_CHIN] = rigid_compose(&own[SEGMENT_DISTAL], &own[SEGMENT_CHIN]);
     *out = m;
     return true;
 }

@@ -7,11 +7,9 @@ typedef struct plan_moves {
     double measure[BOUND_COUNT]; /* in the units of the bound */
 } plan_moves;
 
-/* Advance and impaction run along the axes of the head's Frankfort frame, as do the axes of pitch (positive:
- * front down), yaw (positive: front to the left) and roll (positive: left side down); roll is applied first,
- * then pitch, then yaw, then the translation. translate_mm, matrices and .tfm files are in file axes (LPS). A
- * rotation without a pivot turns about the segment's point: upper incisor, lower incisor, pogonion or
- * condylion. The chin's own move is relative to the distal segment.
+/* The moves are those of geometry/rig.h: advance and impaction along the head's Frankfort frame, angles about its axes,
+ * translate_mm, matrices and .tfm files in file axes (LPS). A rotation without a pivot turns about the segment's point:
+ * upper incisor, lower incisor, pogonion or condylion. The chin's own move is relative to the distal segment.
  *
  * A bound that is left is an error (ERR_INFEASIBLE) with its source, a warning if the plan has an override.
  * Missing landmarks are errors. True if there is no error, and only then *out is written. */

@@ -3,6 +3,7 @@
 #pragma once
 #include "radial.h"
 #include "tube.h"
+#include <stdbool.h>
 
 enum { SKIN_TUBES = 16, SKULL_TUBES = 20, MANDIBLE_TUBES = 10 };
 
@@ -16,6 +17,7 @@ bodies bodies_build(void);
 void bodies_free(bodies *b);
 
 double body_skin(const bodies *b, const double p[3]);
+bool body_skin_fold(const double p[3]); /* in the groove between the lips or in a nostril */
 double skin_lid_line(double x); /* height of the line between the lids */
 double body_skull(const bodies *b, const double p[3]);    /* no teeth, no mandible */
 double body_mandible(const bodies *b, const double p[3]); /* no teeth */

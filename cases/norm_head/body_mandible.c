@@ -66,7 +66,7 @@ double body_mandible(const bodies *b, const double point[3])
     double joint = sdf_cone(p, neck_a, 3.4, neck_b, 3.6);
     joint = sdf_union(joint, sdf_ellipsoid_turned(p, condyle_at, condyle, 0, -0.25, 0), 3.5);
     d = sdf_union(d, joint, 4);
-    d = sdf_union(d, sdf_ellipsoid(p, 0, -77.6, -78, 9, 6.0, 6.5), 5); /* chin */
+    d = sdf_union(d, sdf_ellipsoid(p, 0, -77.4, -79, 9, 6.0, 6.5), 5); /* chin */
     d = sdf_union(d, sdf_sphere(p, 11.5, -74.5, -81.5, 4.6), 6);
     for (int i = 0; i < TEETH_PER_SIDE; i++) {
         const tooth *q = &lower_teeth[i];
@@ -81,6 +81,6 @@ double body_mandible(const bodies *b, const double point[3])
     static const double lingula_a[3] = {39.8, -24, -35}, lingula_b[3] = {40.6, -23.5, -32.5};
     d = sdf_union(d, sdf_cone(p, lingula_a, 1.4, lingula_b, 0.9), 1.5);
     d = sdf_cut(d, sdf_ellipsoid(p, 40.2, -22.5, -35.5, 2, 2.2, 2.6), 1.2); /* mandibular foramen */
-    d = sdf_cut(d, sdf_ellipsoid(p, 25.5, -68.5, -69.5, 3, 1.9, 1.6), 1.2); /* mental foramen */
+    d = sdf_cut(d, sdf_ellipsoid(p, 25.8, -68.5, -67.8, 3, 1.9, 1.6), 1.2); /* mental foramen */
     return d;
 }

@@ -17,13 +17,13 @@ static const double face_points[][3] = {
     {20, -94.5, 52}, {40, -84, 52}, {56, -65.5, 52}, {65.5, -38, 52}, {71.5, -5, 52}, {73, 25, 50}, {61, 60, 50},
     {34, 82, 50},
     /* brow, temple */
-    {15, -94.8, 36}, {30, -92, 36}, {43.5, -85, 34}, {53.5, -74, 31}, {61, -55, 34}, {66, -30, 36}, {70, -5, 36},
+    {14, -95.2, 35}, {30, -92, 36}, {43.5, -85, 34}, {53.5, -74, 31}, {61, -55, 34}, {66, -30, 36}, {70, -5, 36},
     {72.5, 20, 34}, {63, 58, 30}, {37, 81, 28},
     /* sockets and eye level */
-    {12, -88, 25}, {14, -82, 14}, {31, -83.5, 25}, {31, -79, 12}, {45, -76.5, 15}, {55, -67, 13}, {60.5, -48, 14},
-    {65.5, -27, 14}, {69, -5, 15}, {70.5, 20, 12}, {61, 56, 8}, {35, 76, 6},
+    {12.5, -89.5, 26}, {14, -82, 14}, {31, -83.5, 25}, {31, -79, 12}, {45, -76.5, 15}, {56, -68, 14}, {61.8, -49.5, 14},
+    {66.5, -27.5, 14}, {69, -5, 15}, {70.5, 20, 12}, {61, 56, 8}, {35, 76, 6},
     /* below the orbit */
-    {12.5, -87.5, 3}, {25, -86.5, 0}, {36.5, -85.3, -1}, {48.5, -79.5, -3}, {57, -68.5, -1}, {63, -51.5, 1}, {66, -31, 3},
+    {13, -88, 6}, {25, -86.5, 0}, {36.5, -85.3, -1}, {49, -80.5, -4}, {57, -68.5, -1}, {63, -51.5, 1}, {66, -31, 3},
     {67.5, -10, 3}, {68, 18, -6}, {56, 48, -14}, {32, 63, -18},
     {16, -89.5, -14}, {27, -88.2, -14}, {39, -84, -14}, {49.5, -77, -13}, {57.5, -65, -13}, {62.5, -47.5, -14}, {64, -28, -14},
     {65, -8, -14},
@@ -35,7 +35,7 @@ static const double face_points[][3] = {
     {13, -90.5, -60}, {24, -85.5, -61}, {33, -79, -61}, {41, -69, -61}, {47, -54, -62}, {51, -36, -63},
     {53, -17, -61},
     /* chin and border of the jaw */
-    {13, -91, -71}, {23, -85.5, -72}, {32, -76, -73}, {40.5, -62, -73.5}, {45.5, -45, -73}, {48.5, -28, -69},
+    {13, -91, -71}, {23, -85.5, -72}, {32, -76, -73}, {40.5, -62, -73.5}, {45.5, -45, -73}, {50, -29, -69},
     {12, -90.5, -83}, {22, -82.5, -84}, {29, -71, -85.5}, {36, -58, -82}, {40, -43, -79.5},
     {15, -72, -93.5}, {13, -58, -91}, {22, -40, -84}, {40, -20, -73}};
 
@@ -68,7 +68,7 @@ _Static_assert((int)SKIN_TUBE_COUNT <= (int)SKIN_TUBES, "room in bodies");
 void body_skin_tubes(tube *t)
 {
     /* the ear in its own axes: out, back, up */
-    static const double helix[][4] = {{-2, -8, 2, 2.0},   {2, -9.5, 12, 2.2},  {4.5, -6, 23, 2.4}, {6, 3, 29, 2.5},
+    static const double helix[][4] = {{-1, -7, 2, 2.4},   {1.5, -9.0, 12, 2.6},  {4.5, -5.5, 23, 2.6}, {6, 3, 29, 2.5},
                                       {7, 12, 26, 2.6},   {7.5, 17, 15, 2.5},  {6.5, 16.5, 3, 2.4}, {5, 12.5, -9, 2.4},
                                       {3.5, 7, -19, 2.8}, {2.5, 1, -24, 2.5}};
     t[HELIX] = tube_round(helix, COUNT(helix));
@@ -137,10 +137,10 @@ static double ear(const bodies *b, const double p[3])
     to_ear(p, centre, -0.42, 0.2, q);
     if (vec_norm(q) > 55) return vec_norm(q) - 40;
     static const double lobe_at[3] = {2.5, 1.5, -22}, lobe[3] = {2.7, 6, 7.5};
-    static const double plate_at[3] = {2.5, 4, 5}, plate[3] = {2.2, 13, 24};
+    static const double plate_at[3] = {2.6, 4.0, 4.5}, plate[3] = {3.4, 15, 26.5};
     double d = sdf_ellipsoid_turned(q, plate_at, plate, 0.12, 0, 0.04);
-    d = tube_union(d, &b->skin[HELIX], q, 2.5);
-    d = tube_union(d, &b->skin[ANTIHELIX], q, 2.5);
+    d = tube_union(d, &b->skin[HELIX], q, 3.5);
+    d = tube_union(d, &b->skin[ANTIHELIX], q, 3);
     d = sdf_union(d, sdf_ellipsoid_turned(q, lobe_at, lobe, 0.2, 0, 0), 4);
     d = sdf_cut(d, sdf_ellipsoid(q, 6.0, 0.5, -2, 5.5, 6.5, 8.5), 3);
     static const double tragus_a[3] = {1, -8, -2}, tragus_b[3] = {2.5, -6.5, -7};
@@ -150,11 +150,11 @@ static double ear(const bodies *b, const double p[3])
 static double nose(const bodies *b, const double p[3])
 {
     static const double ala_at[3] = {11.0, -98, -21.3}, ala[3] = {5.4, 8.8, 6.4};
-    static const double columella_a[3] = {0, -107.5, -21.5}, columella_b[3] = {0, -97, -27.5};
+    static const double columella_a[3] = {0, -107.5, -21.5}, columella_b[3] = {0, -97, -26.3};
     static const double lobule[3] = {3.8, -106.3, -18}, lobule_semi[3] = {5.2, 6.3, 6};
     double d = sdf_union(tube_distance(&b->skin[RIDGE], p), tube_distance(&b->skin[WALL], p), 14);
     d = sdf_union(d, sdf_ellipsoid_turned(p, ala_at, ala, 0.25, -0.35, 0.1), 4.5);
-    d = sdf_union(d, sdf_cone(p, columella_a, 4.2, columella_b, 4.4), 4);
+    d = sdf_union(d, sdf_cone(p, columella_a, 4.2, columella_b, 3.8), 5);
     return sdf_union(d, sdf_ellipsoid_turned(p, lobule, lobule_semi, 0, 0, 0), 5);
 }
 
@@ -213,7 +213,13 @@ double body_skin(const bodies *b, const double point[3])
         d = sdf_cut(d, sdf_cone(p, philtrum_a, 2.0, philtrum_b, 3.0), 3);
         d = sdf_cut(d, mouth_groove(p), 1.8);
     } else {
-        d = sdf_union(d, ear(b, p), 4);
+        d = sdf_union(d, ear(b, p), 6);
     }
     return sdf_meet(d, -150 - p[2], 2);
+}
+
+bool body_skin_fold(const double point[3])
+{
+    double p[3] = {fabs(point[0]), point[1], point[2]};
+    return p[1] < -80 && (mouth_groove(p) < 0.9 || nostrils(p) < 0.9);
 }

@@ -1,6 +1,7 @@
 #include "norm_head.h"
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
+#include "fit.h"
 #include "geometry/vec.h"
 #include "sdf.h"
 #include "skin_colour.h"
@@ -32,6 +33,9 @@ bool norm_head_params_check(const norm_head_params *p, err *e)
     return true;
 }
 
+/* The thinnest soft tissue of the tables is that over the bridge of the nose. */
+static const double skin_least_mm = 3;
+
 /* Points of a body that only take the size of the sex: what is far from the jaws stays in proportion. */
 static void add_anchors(warp_pairs *w, const double (*point)[3], int count, const double scale[3])
 {
@@ -43,12 +47,12 @@ static void add_anchors(warp_pairs *w, const double (*point)[3], int count, cons
         }
 }
 
-static const double skull_anchors[][3] = {{0, -90, 48}, {0, -55, 103}, {0, 10, 113}, {0, 82, 50}, {0, 40, -20},
-                                          {60, 0, 60},  {55, 40, 10},  {40, -78, 48}, {50, -63, 28}, {54, 10, -26},
+static const double skull_anchors[][3] = {{0, -88, 66}, {0, -55, 103}, {0, 10, 113}, {0, 82, 50}, {0, 40, -20},
+                                          {60, 0, 60},  {55, 40, 10},  {38, -76, 60}, {50, -63, 28}, {54, 10, -26},
                                           {48, -11, 4}, {46, -64, -8}};
 static const double mandible_anchors[][3] = {{44.3, -39.6, -8}};
 static const double skin_anchors[][3] = {
-    {0, -97, 56}, {0, -62, 107}, {0, 8, 119}, {0, 88, 55}, {0, 70, -20}, {70, 0, 60}, {66, 45, 20}, {45, -80, 52},
+    {0, -94, 68}, {0, -62, 107}, {0, 8, 119}, {0, 88, 55}, {0, 70, -20}, {70, 0, 60}, {66, 45, 20}, {44, -78, 60},
     {30, -92, 37}, {52, -72, 30}, {66, -28, 30}, {31, -88, 14}, {45, -80, -3}, {75, 20, 30}, {76, 10, -22},
     {0, -30, -150}, {0, 60, -150}, {50, 12, -150}, {50, 15, -90}};
 
@@ -126,31 +130,80 @@ static surface join_teeth(const tooth *t)
     return all;
 }
 
-static void shape(const norm_head_params *p, const place *list, int count, norm_head *h)
+typedef struct fields { /* the three warps' pairs */
+    warp_pairs skin, upper, lower;
+} fields;
+
+static fields make_fields(const norm_head_params *p, const place *list, int count, const double *asked,
+                          double lower_molars_mm)
 {
     double *to = NEW_ARRAY(double, 3 * count), scale[3];
     bool *held = NEW_ARRAY(bool, count);
-    targets_find(list, count, p, h->asked, to, held);
+    targets_find(list, count, p, asked, lower_molars_mm, to, held);
     targets_scale(p->sex, scale);
-    warp_pairs skin = {0}, upper = {0}, lower = {0};
+    fields f = {0};
     for (int i = 0; i < count; i++) {
         if (!held[i]) continue;
         place_on on = list[i].on;
-        warp_add(on == ON_SKIN ? &skin : on == ON_SKULL || on == ON_UPPER_TEETH ? &upper : &lower, list[i].xyz, to + 3 * i);
+        warp_add(on == ON_SKIN ? &f.skin : on == ON_SKULL || on == ON_UPPER_TEETH ? &f.upper : &f.lower, list[i].xyz,
+                 to + 3 * i);
     }
 #define ANCHORS(w, a) add_anchors(w, a, (int)(sizeof(a) / sizeof *(a)), scale)
-    ANCHORS(&upper, skull_anchors);
-    ANCHORS(&lower, mandible_anchors);
-    ANCHORS(&skin, skin_anchors);
-    add_followers(&skin, list, count, to, scale);
-    warp_by(&upper, &h->skull, &h->upper_teeth, list, count, ON_SKULL, ON_UPPER_TEETH, &h->points);
-    warp_by(&lower, &h->mandible, &h->lower_teeth, list, count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
-    warp_by(&skin, &h->skin, NULL, list, count, ON_SKIN, ON_SKIN, &h->points);
-    warp_pairs_free(&skin);
-    warp_pairs_free(&upper);
-    warp_pairs_free(&lower);
+    ANCHORS(&f.upper, skull_anchors);
+    ANCHORS(&f.lower, mandible_anchors);
+    ANCHORS(&f.skin, skin_anchors);
+    add_followers(&f.skin, list, count, to, scale);
     free(to);
     free(held);
+    return f;
+}
+
+static void free_fields(fields *f)
+{
+    warp_pairs_free(&f->skin);
+    warp_pairs_free(&f->upper);
+    warp_pairs_free(&f->lower);
+}
+
+/* How far the lower side teeth must be lowered so that they meet the upper ones: the arches of a class II or III slide
+ * along each other and cusps come onto cusps. */
+static bool find_bite(const norm_head_params *p, const place *list, int count, const norm_head *h, double *lowered_mm,
+                      err *e)
+{
+    double lowered = 0;
+    for (int round = 0; round < 6; round++) {
+        fields f = make_fields(p, list, count, h->asked, lowered);
+        warp up = warp_through(&f.upper), down = warp_through(&f.lower);
+        surface upper = surface_copy(&h->upper_teeth), lower = surface_copy(&h->lower_teeth);
+        warp_surface(&up, &upper);
+        warp_surface(&down, &lower);
+        double canine[3], depth = 0;
+        warp_apply(&up, list[place_number(list, count, "U3_L")].xyz, canine);
+        bool ok = fit_overlap(&upper, &lower, canine[1] + 4, &depth, e);
+        free_fields(&f);
+        warp_free(&up);
+        warp_free(&down);
+        surface_free(&upper);
+        surface_free(&lower);
+        if (!ok) return false;
+        if (depth < 0.1) break;
+        lowered += depth;
+    }
+    *lowered_mm = lowered;
+    return true;
+}
+
+static bool shape(const norm_head_params *p, const place *list, int count, const bool *exempt, norm_head *h, err *e)
+{
+    double lowered = 0;
+    if (!find_bite(p, list, count, h, &lowered, e)) return false;
+    fields f = make_fields(p, list, count, h->asked, lowered);
+    warp_by(&f.upper, &h->skull, &h->upper_teeth, list, count, ON_SKULL, ON_UPPER_TEETH, &h->points);
+    warp_by(&f.lower, &h->mandible, &h->lower_teeth, list, count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
+    warp_by(&f.skin, &h->skin, NULL, list, count, ON_SKIN, ON_SKIN, &h->points);
+    free_fields(&f);
+    const surface *bones[] = {&h->skull, &h->mandible, &h->upper_teeth, &h->lower_teeth};
+    return fit_clear(&h->skin, exempt, bones, 4, skin_least_mm, &h->thinnest_mm, e);
 }
 
 /* Landmarks lie on the shapes, the meshes within a tenth of a millimetre of them: put each onto its mesh. */
@@ -166,6 +219,14 @@ static bool onto_mesh(const surface *s, place_on on, const place *list, int coun
     }
     nearest_destroy(&tree);
     return true;
+}
+
+/* The groove between the lips and the nostrils of the mean head: their walls are thin by nature. */
+static bool *skin_folds(const surface *skin)
+{
+    bool *fold = NEW_ARRAY(bool, skin->vertex_count);
+    for (int i = 0; i < skin->vertex_count; i++) fold[i] = body_skin_fold(skin->xyz + 3 * i);
+    return fold;
 }
 
 bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
@@ -190,14 +251,16 @@ bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
         h.skin_rgb = skin_colours(&h.skin);
         place *list = NULL;
         int count = places_find(&b, &list);
-        shape(p, list, count, &h);
-        ok = onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
+        bool *exempt = skin_folds(&h.skin);
+        ok = shape(p, list, count, exempt, &h, e) &&
+             onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
              onto_mesh(&h.skull, ON_SKULL, list, count, &h.points, e) &&
              onto_mesh(&h.mandible, ON_MANDIBLE, list, count, &h.points, e) &&
              onto_mesh(&h.upper_teeth, ON_UPPER_TEETH, list, count, &h.points, e) &&
              onto_mesh(&h.lower_teeth, ON_LOWER_TEETH, list, count, &h.points, e);
-        for (int i = 0; i < MEASURE_COUNT; i++) h.obtained[i] = measure_of((measure_id)i, &h.points);
+        for (int i = 0; ok && i < MEASURE_COUNT; i++) h.obtained[i] = measure_of((measure_id)i, &h.points);
         free(list);
+        free(exempt);
     }
     bodies_free(&b);
     if (ok) *out = h;

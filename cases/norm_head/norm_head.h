@@ -23,6 +23,7 @@ typedef struct norm_head {
     uint8_t *skin_rgb;                                       /* [3*skin.vertex_count] */
     landmarks points;
     double asked[MEASURE_COUNT], obtained[MEASURE_COUNT];
+    double thinnest_mm; /* smallest distance from skin to bone or tooth */
 } norm_head;
 
 norm_head_params norm_head_params_default(void);

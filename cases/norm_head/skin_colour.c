@@ -23,13 +23,13 @@ static double brow(double x, double y, double z)
     if (y > -50) return 0;
     double t = (x - 10.5) / 38; /* from the inner end to the tail */
     if (t < -0.1 || t > 1.1) return 0;
-    double centre = 33 + 5.5 * sin(M_PI * 0.72 * sdf_clamp(t, 0, 1)) - 1.5 * t, half = 3.3 * (1 - 0.7 * t);
+    double centre = 31.3 + 7 * sin(M_PI * 0.72 * sdf_clamp(t, 0, 1)) - 0.8 * t, half = 3.3 * (1 - 0.7 * t);
     return 0.7 * (1 - sdf_step(0.3 * half, 1.5 * half, fabs(z - centre))) * sdf_step(-0.1, 0.2, t) * (1 - sdf_step(0.8, 1.1, t));
 }
 
 uint8_t *skin_colours(const surface *skin)
 {
-    static const double base[3] = {222, 178, 152}, lip[3] = {186, 104, 98}, cheek[3] = {222, 156, 136};
+    static const double base[3] = {222, 178, 152}, lip[3] = {194, 118, 108}, cheek[3] = {222, 156, 136};
     static const double hair[3] = {104, 76, 60}, lash[3] = {120, 88, 74};
     uint8_t *rgb = NEW_ARRAY(uint8_t, 3 * skin->vertex_count);
     for (int i = 0; i < skin->vertex_count; i++) {

@@ -94,7 +94,7 @@ static void upper_jaw(plan_points *t, const double *v)
     hold_pair(t, "Zy", v[BIZYGOMATIC_MM] / 2, base(t, "Zy_L", 1), base(t, "Zy_L", 2));
 }
 
-static void lower_jaw(plan_points *t, const double *v)
+static void lower_jaw(plan_points *t, const double *v, double lower_molars_mm)
 {
     const double *n = point(t, "N"), *u1 = point(t, "U1");
     double l_y = u1[1] + v[OVERJET_MM], l_z = u1[2] + v[OVERBITE_MM];
@@ -124,10 +124,10 @@ static void lower_jaw(plan_points *t, const double *v)
     hold(t, "L1_apex", l_y + length * sin(axis), l_z - length * cos(axis));
     double body_y = 0.5 * (moved(t, "L1", 1) + moved(t, "B", 1));
     shift_pair(t, "L3", 0.5 * (point(t, "U3_L")[0] - base(t, "U3_L", 0)), 0.7 * moved(t, "L1", 1) + 0.3 * body_y, 0);
-    point(t, "L3_L")[2] = point(t, "L3_R")[2] = base(t, "L3_L", 2) + moved(t, "L1", 2);
+    point(t, "L3_L")[2] = point(t, "L3_R")[2] = base(t, "L3_L", 2) + moved(t, "L1", 2) - 0.5 * lower_molars_mm;
     double molar_out = point(t, "U6_L")[0] - base(t, "U6_L", 0);
-    shift_pair(t, "L6", molar_out, body_y, moved(t, "U6_L", 2));
-    shift_pair(t, "L7", molar_out, body_y, moved(t, "U6_L", 2));
+    shift_pair(t, "L6", molar_out, body_y, moved(t, "U6_L", 2) - lower_molars_mm);
+    shift_pair(t, "L7", molar_out, body_y, moved(t, "U6_L", 2) - lower_molars_mm);
 }
 
 static void face(plan_points *t, const double *v)
@@ -193,7 +193,7 @@ void targets_scale(norm_sex sex, double scale[3])
 }
 
 void targets_find(const place *places, int count, const norm_head_params *p, const double value[MEASURE_COUNT],
-                  double *to, bool *held)
+                  double lower_molars_mm, double *to, bool *held)
 {
     plan_points t = {.places = places, .count = count, .to = to, .held = held};
     targets_scale(p->sex, t.scale);
@@ -202,7 +202,7 @@ void targets_find(const place *places, int count, const norm_head_params *p, con
         for (int c = 0; c < 3; c++) to[3 * i + c] = places[i].xyz[c] * t.scale[c];
     }
     upper_jaw(&t, value);
-    lower_jaw(&t, value);
+    lower_jaw(&t, value, lower_molars_mm);
     face(&t, value);
     if (p->asymmetry_mm != 0) swing(&t, p->asymmetry_mm);
 }

@@ -11,10 +11,10 @@
 #include <string.h>
 
 enum { CANAL_POINTS = 64, STATIONS = 6, HEIGHTS = 7, TERMS = 5, NODES = STATIONS + 4, LEVELS = HEIGHTS + 1 };
-static const double window_mm = 1.5;         /* width of the slab in which a border is looked for */
 static const double third_molar_mm = 23;     /* L6 to L7 beyond this: L7 is the third molar */
 static const double behind_m2_mm = 1;
 static const double posterior_strip_mm = 4;  /* bone kept behind the lingual cut at the top */
+static const double foramen_drop_mm = 3;     /* mandibular foramen below the tip of the lingula */
 static const double angle_mm = 12;           /* the lingual cut meets the lower border this far before gonion */
 static const double least_lingual_mm = 4;    /* least distance from the buccal to the lingual cut */
 static const double cusp_to_contact_mm = 2;  /* mesiobuccal cusp to mesial contact of the lower first molar */
@@ -37,6 +37,7 @@ typedef struct jaw_side {
     double fit[TERMS];         /* sagittal cut: x = 1, y, z, y^2, yz */
     double canal[CANAL_POINTS][3];
     int canal_count;
+    outline lower, posterior; /* lower border over y, posterior border over z */
     bool lingula_estimated, canal_estimated;
 } jaw_side;
 
@@ -70,28 +71,7 @@ static bool cross_jaw(const jaw_side *j, double y, double z, double *outside, do
     return *outside > 0 && *inside > 0;
 }
 
-/* Height of the lower border: the lowest vertex within the slab around y, on this side. */
-static double border_height(const jaw_side *j, double y)
-{
-    const surface *m = j->in->mandible;
-    double lowest = HUGE_VAL, p[3];
-    for (int32_t v = 0; v < m->vertex_count; v++) {
-        to_local(j, m->xyz + 3 * (size_t)v, p);
-        if (p[0] > 0 && fabs(p[1] - y) < window_mm) lowest = fmin(lowest, p[2]);
-    }
-    return lowest;
-}
-
-static double posterior_border(const jaw_side *j, double z)
-{
-    const surface *m = j->in->mandible;
-    double last = -HUGE_VAL, p[3];
-    for (int32_t v = 0; v < m->vertex_count; v++) {
-        to_local(j, m->xyz + 3 * (size_t)v, p);
-        if (p[0] > 0 && fabs(p[2] - z) < window_mm) last = fmax(last, p[1]);
-    }
-    return last;
-}
+static double border_height(const jaw_side *j, double y) { return outline_at(&j->lower, y); }
 
 static double buccal_y(const jaw_side *j, double z) { return j->m2[1] + j->v_slope * (z - j->m2[2]); }
 
@@ -139,7 +119,7 @@ static bool fit_sagittal(jaw_side *j, const osteotomy_params *p)
     double a[TERMS][TERMS + 1] = {{0}};
     int used = 0;
     for (int s = 0; s <= 24; s++) {
-        double y = buccal_y(j, j->top) + s / 24.0 * (j->lingual[0][0] - buccal_y(j, j->top)), ridge = -HUGE_VAL,
+        double y = buccal_y(j, j->top) + s / 24.0 * (lingual_y(j, j->top) - buccal_y(j, j->top)), ridge = -HUGE_VAL,
                low = border_height(j, y);
         for (int h = 0; h <= 24; h++) { /* upwards */
             double z = low + 1 + h / 24.0 * (j->top - low - 1), out, in, t[TERMS];
@@ -257,14 +237,21 @@ static bool locate(jaw_side *j, const osteotomy_params *p, cut_report *r, err *e
     if (j->top > j->sn[2] - notch_mm)
         return err_set(e, ERR_GEOMETRY, "BSSO %s: the medial cut would lie %.1f mm below the sigmoid notch; %g mm are "
                                         "needed", word, j->sn[2] - j->top, notch_mm);
-    double last = posterior_border(j, j->top), room = last - posterior_strip_mm;
-    j->lingual[0][0] = fmin(j->li[1] + p->behind_lingula_mm, room);
-    j->lingual[0][1] = j->top;
+    double last = outline_at(&j->posterior, j->top), room = last - posterior_strip_mm;
+    /* The foramen lies below and behind the tip of the lingula: the margin holds at its height. */
+    j->lingual[0][0] = j->li[1] + p->behind_lingula_mm;
+    j->lingual[0][1] = j->li[2] - foramen_drop_mm;
     if (room < j->li[1] + 1)
         return err_set(e, ERR_GEOMETRY, "BSSO %s: only %.1f mm of ramus lie behind the lingula", word, last - j->li[1]);
     double y = fmax(buccal_y(j, j->border_at_v) + least_lingual_mm, j->go[1] - angle_mm);
     j->lingual[1][0] = fmin(y, j->lingual[0][0]);
     j->lingual[1][1] = border_height(j, j->lingual[1][0]);
+    if (!(j->lingual[0][1] > j->lingual[1][1] + 1))
+        return err_set(e, ERR_INPUT, "BSSO %s: the lingula lies at the lower border", word);
+    if (lingual_y(j, j->top) > room) { /* turn it about its lower end */
+        double rise = (j->lingual[0][1] - j->lingual[1][1]) / (j->top - j->lingual[1][1]);
+        j->lingual[0][0] = j->lingual[1][0] + (room - j->lingual[1][0]) * rise;
+    }
     return true;
 }
 
@@ -279,7 +266,7 @@ static void find_canal(jaw_side *j, cut_report *r)
     j->canal_estimated = true;
     vec_copy(j->li, j->canal[0]);
     j->canal[0][1] += 2;
-    j->canal[0][2] -= 3;
+    j->canal[0][2] -= foramen_drop_mm;
     if (cross_jaw(j, j->canal[0][1], j->canal[0][2], &out, &in)) j->canal[0][0] = in + 1;
     j->canal_count = 1;
     for (int k = 1; k <= 4; k++) {
@@ -344,7 +331,7 @@ static bool report_side(const jaw_side *j, const osteotomy_params *p, const surf
     snprintf(name, sizeof name, "lingula below the medial cut %s", word);
     report_clearance(r, name, j->top - j->li[2], fmin(2, p->above_lingula_mm), j->lingula_estimated);
     snprintf(name, sizeof name, "lingula before the lingual cut %s", word);
-    report_clearance(r, name, j->lingual[0][0] - j->li[1], 2, j->lingula_estimated);
+    report_clearance(r, name, lingual_y(j, j->li[2]) - j->li[1], 2, j->lingula_estimated);
     snprintf(name, sizeof name, "medial cut below the sigmoid notch %s", word);
     report_clearance(r, name, j->sn[2] - j->top, notch_mm, false);
     double least = HUGE_VAL;
@@ -369,7 +356,7 @@ static bool report_side(const jaw_side *j, const osteotomy_params *p, const surf
     for (int k = 0; k < 3; k++) normal[k] = j->frame.posterior[k] - j->v_slope * j->frame.up[k];
     snprintf(name, sizeof name, "bsso buccal %s", word);
     report_plane(r, name, world, normal);
-    double mid = (j->top + j->border_at_v) / 2, y0 = buccal_y(j, j->top), y1 = j->lingual[0][0];
+    double mid = (j->top + j->border_at_v) / 2, y0 = buccal_y(j, j->top), y1 = lingual_y(j, j->top);
     double pa[3] = {sagittal_x(j, p, y0, j->top - 1), y0, j->top - 1},
            pb[3] = {sagittal_x(j, p, y1, j->top - 1), y1, j->top - 1},
            pc[3] = {sagittal_x(j, p, (y0 + y1) / 2, mid), (y0 + y1) / 2, mid};
@@ -385,6 +372,46 @@ static bool report_side(const jaw_side *j, const osteotomy_params *p, const surf
     return true;
 }
 
+static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e)
+{
+    if (!locate(j, p, r, e)) return false;
+    int which = j->side > 0 ? 0 : 1;
+    const osteotomy_input *in = j->in;
+    const char *word = j->side > 0 ? "left" : "right";
+    if (in->canal[which]) {
+        if (in->canal_count[which] < 2 || in->canal_count[which] > CANAL_POINTS)
+            return err_set(e, ERR_INPUT, "a canal needs 2 to %d points, got %d", CANAL_POINTS, in->canal_count[which]);
+        j->canal_count = in->canal_count[which];
+        for (int i = 0; i < j->canal_count; i++) to_local(j, in->canal[which] + 3 * (size_t)i, j->canal[i]);
+    } else {
+        find_canal(j, r);
+    }
+    if (!fit_sagittal(j, p))
+        return err_set(e, ERR_GEOMETRY, "BSSO %s: no bone between the vertical cut and the lingula", word);
+    double low[3] = {midline_mm, fmin(buccal_y(j, j->top), buccal_y(j, j->low[2])) - margin_mm, j->low[2] - margin_mm},
+           high[3] = {j->high[0] + margin_mm, j->high[1] + margin_mm, j->high[2] + margin_mm};
+    if (j->side < 0) {
+        double keep = low[0];
+        low[0] = -high[0];
+        high[0] = -keep;
+    }
+    cutter box = cutter_box(&j->frame, low, high), distal = block(j, p);
+    cut_bodies b = {.sheet = cutter_sheet(&distal)};
+    surface wide = cutter_offset(&box, 0, HOLLOW_MM);
+    bool ok = carve(&box.body, &distal, p->kerf_mm / 2, &b.inner, e) &&
+              carve(&wide, &distal, p->kerf_mm / 2, &b.hollow, e) &&
+              carve(&box.body, &distal, -p->kerf_mm / 2, &b.outer, e) && report_side(j, p, &b.sheet, r, e);
+    surface_free(&wide);
+    cutter_free(&box);
+    cutter_free(&distal);
+    if (!ok) {
+        cut_bodies_free(&b);
+        return err_prefix(e, "BSSO %s", word);
+    }
+    *out = b;
+    return true;
+}
+
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,
                  cut_bodies *out, cut_report *r, err *e)
 {
@@ -394,40 +421,11 @@ bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nea
     for (int k = 0; k < 6; k++) needed[k] = side_label(names[k], base[k], side);
     if (!need_landmarks(in->points, "BSSO", needed, e)) return false;
     jaw_side j = {.in = in, .tree = mandible, .side = side};
-    if (!jaw_frame(in->points, &j.frame, e) || !locate(&j, p, r, e)) return false;
-    int which = side > 0 ? 0 : 1;
-    if (in->canal[which]) {
-        if (in->canal_count[which] < 2 || in->canal_count[which] > CANAL_POINTS)
-            return err_set(e, ERR_INPUT, "a canal needs 2 to %d points, got %d", CANAL_POINTS, in->canal_count[which]);
-        j.canal_count = in->canal_count[which];
-        for (int i = 0; i < j.canal_count; i++) to_local(&j, in->canal[which] + 3 * (size_t)i, j.canal[i]);
-    } else {
-        find_canal(&j, r);
-    }
-    if (!fit_sagittal(&j, p))
-        return err_set(e, ERR_GEOMETRY, "BSSO %s: no bone between the vertical cut and the lingula",
-                       side > 0 ? "left" : "right");
-    double low[3] = {midline_mm, fmin(buccal_y(&j, j.top), buccal_y(&j, j.low[2])) - margin_mm,
-                     j.low[2] - margin_mm},
-           high[3] = {j.high[0] + margin_mm, j.high[1] + margin_mm, j.high[2] + margin_mm};
-    if (side < 0) {
-        double keep = low[0];
-        low[0] = -high[0];
-        high[0] = -keep;
-    }
-    cutter box = cutter_box(&j.frame, low, high), distal = block(&j, p);
-    cut_bodies b = {.sheet = cutter_sheet(&distal)};
-    surface wide = cutter_offset(&box, 0, HOLLOW_MM);
-    bool ok = carve(&box.body, &distal, p->kerf_mm / 2, &b.inner, e) &&
-              carve(&wide, &distal, p->kerf_mm / 2, &b.hollow, e) &&
-              carve(&box.body, &distal, -p->kerf_mm / 2, &b.outer, e) && report_side(&j, p, &b.sheet, r, e);
-    surface_free(&wide);
-    cutter_free(&box);
-    cutter_free(&distal);
-    if (!ok) {
-        cut_bodies_free(&b);
-        return err_prefix(e, "BSSO %s", side > 0 ? "left" : "right");
-    }
-    *out = b;
-    return true;
+    if (!jaw_frame(in->points, &j.frame, e)) return false;
+    j.lower = outline_make(in->mandible, &j.frame, side, 1, 2, -1);
+    j.posterior = outline_make(in->mandible, &j.frame, side, 2, 1, 1);
+    bool ok = bodies_of(&j, p, out, r, e);
+    outline_free(&j.lower);
+    outline_free(&j.posterior);
+    return ok;
 }

@@ -80,6 +80,54 @@ bool jaw_frame(const landmarks *l, head_frame *out, err *e)
     return true;
 }
 
+static const double outline_step_mm = 0.5;
+
+outline outline_make(const surface *s, const head_frame *f, int side, int across, int along, int sign)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    double *local = NEW_ARRAY(double, 3 * (size_t)s->vertex_count);
+    for (int32_t v = 0; v < s->vertex_count; v++) {
+        double *p = local + 3 * (size_t)v;
+        head_frame_to_local(f, s->xyz + 3 * (size_t)v, p);
+        p[0] *= side;
+        low = fmin(low, p[across]);
+        high = fmax(high, p[across]);
+    }
+    outline o = {.start = low, .count = 1 + (int)ceil((high - low) / outline_step_mm), .sign = sign};
+    o.extreme = NEW_ARRAY(double, o.count);
+    for (int i = 0; i < o.count; i++) o.extreme[i] = -sign * HUGE_VAL;
+    for (size_t i = 0; i < 3 * (size_t)s->triangle_count; i++) { /* the extreme of a section lies on an edge */
+        const double *a = local + 3 * (size_t)s->tri[i], *b = local + 3 * (size_t)s->tri[i % 3 == 2 ? i - 2 : i + 1];
+        double span = b[across] - a[across];
+        if (!(span > 0)) continue; /* the other triangle of the edge runs upwards */
+        int k = (int)ceil((a[across] - low) / outline_step_mm);
+        for (; k < o.count && low + k * outline_step_mm <= b[across]; k++) {
+            double t = (low + k * outline_step_mm - a[across]) / span;
+            if (a[0] + t * (b[0] - a[0]) <= 0) continue;
+            double value = a[along] + t * (b[along] - a[along]);
+            o.extreme[k] = sign > 0 ? fmax(o.extreme[k], value) : fmin(o.extreme[k], value);
+        }
+    }
+    free(local);
+    return o;
+}
+
+void outline_free(outline *o)
+{
+    free(o->extreme);
+    *o = (outline){0};
+}
+
+double outline_at(const outline *o, double x)
+{
+    double at = (x - o->start) / outline_step_mm;
+    int i = (int)floor(at);
+    if (!(at >= 0) || i + 1 >= o->count) return -o->sign * HUGE_VAL;
+    double a = o->extreme[i], b = o->extreme[i + 1];
+    if (!isfinite(a) || !isfinite(b)) return isfinite(a) ? a : b;
+    return a + (at - i) * (b - a);
+}
+
 void report_clearance(cut_report *r, const char *name, double value_mm, double limit_mm, bool estimated)
 {
     r->clearance = GROW_ARRAY(cut_clearance, r->clearance, r->clearance_count + 1);

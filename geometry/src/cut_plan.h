@@ -39,6 +39,17 @@ enum { UPPER_1_MM = 23, UPPER_3_MM = 27, LOWER_1_MM = 21, LOWER_3_MM = 27 };
 #define LOWER_M2_WIDTH_MM 10.5
 #define UPPER_M1_WIDTH_MM 10.0
 
+/* Outline of one side of a bone: for every value of the local axis `across` the extreme of the axis `along` over the
+ * section there (sign -1: lowest, +1: highest), sampled every half millimetre. */
+typedef struct outline {
+    double start;
+    int count, sign;
+    double *extreme; /* [count] infinite where there is no bone */
+} outline;
+outline outline_make(const surface *s, const head_frame *f, int side, int across, int along, int sign);
+void outline_free(outline *o);
+double outline_at(const outline *o, double x); /* infinite, of the sign opposite to `sign`, where there is no bone */
+
 void report_clearance(cut_report *r, const char *name, double value_mm, double limit_mm, bool estimated);
 void report_plane(cut_report *r, const char *label, const double point[3], const double normal[3]);
 void report_warning(cut_report *r, const char *fmt, ...) PRINTF_LIKE(2, 3);

@@ -1,6 +1,6 @@
 #include "tests/check.h"
 #include "geometry/vec.h"
-#include "sim/rig.h"
+#include "geometry/rig.h"
 #include <string.h>
 
 /* A head whose own axes are the file's. */

@@ -1,4 +1,4 @@
-#include "sim/rig.h"
+#include "geometry/rig.h"
 #include "geometry/vec.h"
 #include <stddef.h>
 
