@@ -16,6 +16,44 @@ static bool in_fissure(const tissue_domain *d, const tetmesh *m, int32_t t, int 
     return local[0] > d->lips.x[0] + corner_margin_mm && local[0] < d->lips.x[2] - corner_margin_mm;
 }
 
+/* Marks the facets of the sheet that are to be cut: cut[4 t + k]. */
+static void mark_sheet(const tissue_domain *d, const tetmesh *m, const int32_t *across, uint8_t *cut)
+{
+    for (int32_t t = 0; t < m->tet_count; t++)
+        for (int k = 0; k < 4; k++) {
+            int32_t other = across[4 * (size_t)t + (size_t)k];
+            cut[4 * (size_t)t + (size_t)k] =
+                other >= 0 && m->region[other] != m->region[t] && in_fissure(d, m, t, k);
+        }
+}
+
+/* Crumbs: a few tets that the cut would part from everything. They go over to the lip on the other side. */
+static void join_crumbs(tetmesh *m, const int32_t *across, const uint8_t *cut)
+{
+    enum { CRUMB = 40 };
+    int32_t *seen = NEW_ARRAY(int32_t, m->tet_count), stack[4 * CRUMB + 4];
+    for (int32_t t = 0; t < m->tet_count; t++) {
+        int32_t part[CRUMB], size = 0, top = 0;
+        bool beside_cut = cut[4 * (size_t)t] || cut[4 * (size_t)t + 1] || cut[4 * (size_t)t + 2] || cut[4 * (size_t)t + 3];
+        if (!beside_cut || seen[t]) continue;
+        stack[top++] = t;
+        seen[t] = t + 1;
+        while (top && size < CRUMB) {
+            int32_t s = part[size++] = stack[--top];
+            for (int k = 0; k < 4; k++) {
+                int32_t n = across[4 * (size_t)s + (size_t)k];
+                if (n < 0 || cut[4 * (size_t)s + (size_t)k] || seen[n] == t + 1) continue;
+                seen[n] = t + 1;
+                stack[top++] = n;
+            }
+        }
+        if (size == CRUMB || top) continue;
+        for (int32_t i = 0; i < size; i++)
+            m->region[part[i]] = m->region[part[i]] == REGION_UPPER ? REGION_LOWER : REGION_UPPER;
+    }
+    free(seen);
+}
+
 static int32_t root_of(int32_t *parent, int32_t i)
 {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -26,13 +64,11 @@ void tissue_open_lips(const tissue_domain *d, tetmesh *m, uint8_t **side, lip_pa
 {
     int32_t *across = tetmesh_neighbours(m), old_count = m->vertex_count;
     uint8_t *cut = NEW_ARRAY(uint8_t, 4 * (size_t)m->tet_count), *touched = NEW_ARRAY(uint8_t, old_count);
-    for (int32_t t = 0; t < m->tet_count; t++)
-        for (int k = 0; k < 4; k++) {
-            int32_t other = across[4 * (size_t)t + (size_t)k];
-            if (other < 0 || m->region[other] == m->region[t] || !in_fissure(d, m, t, k)) continue;
-            cut[4 * (size_t)t + (size_t)k] = 1;
-            for (int a = 0; a < 3; a++) touched[m->tet[4 * (size_t)t + (size_t)tet_face[k][a]]] = 1;
-        }
+    mark_sheet(d, m, across, cut);
+    join_crumbs(m, across, cut);
+    mark_sheet(d, m, across, cut);
+    for (size_t i = 0; i < 4 * (size_t)m->tet_count; i++)
+        for (int a = 0; cut[i] && a < 3; a++) touched[m->tet[4 * (i / 4) + (size_t)tet_face[i % 4][a]]] = 1;
     /* One slot per (tet, corner); slots of the same node in tets that share an uncut face belong together. */
     size_t slots = 4 * (size_t)m->tet_count;
     int32_t *parent = NEW_ARRAY(int32_t, slots), *group_node = NEW_ARRAY(int32_t, slots);
