@@ -14,6 +14,7 @@ enum { CANAL_POINTS = 64, STATIONS = 6, HEIGHTS = 7, TERMS = 5, NODES = STATIONS
 static const double third_molar_mm = 23;     /* L6 to L7 beyond this: L7 is the third molar */
 static const double behind_m2_mm = 1;
 static const double posterior_strip_mm = 4;  /* bone kept behind the lingual cut at the top */
+static const double foramen_reach_mm = 8;
 static const double foramen_drop_mm = 3;     /* mandibular foramen below the tip of the lingula */
 static const double angle_mm = 12;           /* the lingual cut meets the lower border this far before gonion */
 static const double least_lingual_mm = 4;    /* least distance from the buccal to the lingual cut */
@@ -144,8 +145,9 @@ static bool fit_sagittal(jaw_side *j, const osteotomy_params *p)
     return true;
 }
 
-/* Point of the canal at y, by its polyline. */
-static bool canal_at(const jaw_side *j, double y, double out[2])
+/* x and z of the canal at y, by its polyline, and how much longer than across the jaw its distance to a sheet beside it
+ * must be, because it runs aslant. */
+static bool canal_at(const jaw_side *j, double y, double out[3])
 {
     for (int i = 0; i + 1 < j->canal_count; i++) {
         const double *a = j->canal[i], *b = j->canal[i + 1];
@@ -153,18 +155,26 @@ static bool canal_at(const jaw_side *j, double y, double out[2])
         double t = (y - a[1]) / (b[1] - a[1]);
         out[0] = a[0] + t * (b[0] - a[0]);
         out[1] = a[2] + t * (b[2] - a[2]);
+        out[2] = hypot(1, (b[0] - a[0]) / (b[1] - a[1]));
         return true;
     }
-    return false;
+    const double *end = j->canal[0]; /* a cut just behind the foramen must not slant towards it */
+    if (!j->canal_count || y < end[1] || y > end[1] + foramen_reach_mm) return false;
+    out[0] = end[0];
+    out[1] = end[2];
+    out[2] = 1;
+    return true;
 }
 
 static double sagittal_x(const jaw_side *j, const osteotomy_params *p, double y, double z)
 {
-    double t[TERMS], x = 0, out, in, canal[2];
+    double t[TERMS], x = 0, out, in, canal[3];
     double low = border_height(j, y), inside_bone = fmax(z, low + 0.5);
     terms(y, inside_bone, t);
     for (int k = 0; k < TERMS; k++) x += t[k] * j->fit[k];
-    if (canal_at(j, y, canal) && fabs(z - canal[1]) < 6) x = fmax(x, canal[0] + p->canal_clearance_mm);
+    for (int k = -3; k <= 3; k++) /* up to halfway to the next stations, because the sheet is straight between them */
+        if (canal_at(j, y + k, canal) && fabs(z - canal[1]) < 6)
+            x = fmax(x, canal[0] + canal[2] * p->canal_clearance_mm);
     double u = fmin(fmax((y - j->l6[1]) / (j->l7[1] - j->l6[1]), 0), 1), /* beside the molars, fading behind and below */
         away = fmax(y - j->l7[1], 0) + fmax(j->l7[2] - 10 - z, 0);
     x = fmax(x, j->l6[0] + u * (j->l7[0] - j->l6[0]) + crown_mm - away / 2);
