@@ -8,7 +8,7 @@ static const double face_points[][3] = {
     {0, -95.5, 38}, {0, -97, 52}, {0, -93.5, 70}, {0, -83, 90}, {0, -62, 107}, {0, -25, 118}, {0, 8, 119},
     {0, 42, 111}, {0, 70, 90}, {0, 87, 58}, {0, 90, 28}, {0, 82, 0}, {0, 66, -28},
     /* face, midline; under the nose this is its base */
-    {0, -92.5, 25}, {0, -88, 8}, {0, -89, -12}, {0, -95, -29}, {0, -96.5, -36}, {0, -96.5, -45}, {0, -94.5, -52},
+    {0, -94.8, 31}, {0, -92.3, 25}, {0, -88, 8}, {0, -89, -12}, {0, -95, -29}, {0, -96.5, -36}, {0, -96.5, -45}, {0, -94.5, -52},
     {0, -92.5, -60}, {0, -92.3, -68}, {0, -94.8, -77}, {0, -93.5, -85}, {0, -87.5, -91.5}, {0, -75, -94.5},
     {0, -60, -92}, {0, -40, -86}, {0, -15, -84},
     /* z = 100, 75, 52 */
@@ -75,7 +75,7 @@ void body_skin_tubes(tube *t)
     static const double antihelix[][4] = {{4, 3, 20, 1.2}, {5, 8, 12, 2.0}, {5, 9.5, 2, 2.3}, {4.2, 7, -8, 2.2},
                                           {3.4, 1.5, -13, 2.2}};
     t[ANTIHELIX] = tube_round(antihelix, COUNT(antihelix));
-    static const double ridge[][4] = {{0, -86.2, 26, 6.0}, {0, -90.9, 13, 6.4}, {0, -97.2, 0, 6.6},
+    static const double ridge[][4] = {{0, -85.6, 25, 6.0}, {0, -90.9, 13, 6.4}, {0, -97.2, 0, 6.6},
                                       {0, -102.6, -10, 7.0}, {0, -106.9, -16.8, 7.5}};
     t[RIDGE] = tube_round(ridge, COUNT(ridge));
     static const double wall[][4] = {{5, -83, 18, 5}, {6, -87, 5, 6.0}, {7, -92, -7, 7.0}, {8.2, -95.5, -16, 7.2}};
@@ -164,8 +164,8 @@ static double nostrils(const double p[3])
     return sdf_ellipsoid_turned(p, at, semi, 0.1, -0.35, -0.15);
 }
 
-/* Height of the line between the lips. */
-static double lip_line(double x) { return -50.2 + 0.9 * exp(-(x - 7) * (x - 7) / 40) - 0.5 * sdf_step(14, 25, x); }
+/* Height of the line between the lips: straight from stomion to cheilion, where the tissue is parted too. */
+static double lip_line(double x) { return -50.2 - 0.4 * x / 25; }
 
 /* The fissure that shows between the closed lips: a sheet that ends `back`, so that it does not open the mouth. */
 static double mouth_groove(const double p[3])

@@ -54,7 +54,28 @@ static const double mandible_anchors[][3] = {{44.3, -39.6, -8}};
 static const double skin_anchors[][3] = {
     {0, -94, 68}, {0, -62, 107}, {0, 8, 119}, {0, 88, 55}, {0, 70, -20}, {70, 0, 60}, {66, 45, 20}, {44, -78, 60},
     {30, -92, 37}, {52, -72, 30}, {66, -28, 30}, {31, -88, 14}, {45, -80, -3}, {75, 20, 30}, {76, 10, -22},
-    {0, -30, -150}, {0, 60, -150}, {50, 12, -150}, {50, 15, -90}};
+    {0, -30, -150}, {0, 60, -150}};
+
+/* Where men differ beyond size: brow, neck. */
+typedef struct dimorphic {
+    double at[3], male_shift[3];
+} dimorphic;
+static const dimorphic skull_dimorphic[] = {{{8, -89, 34}, {0, -1.6, 0}}};
+static const dimorphic skin_dimorphic[] = {
+    {{10, -96, 37}, {0, -1.6, 0}}, {{46, 10, -150}, {6, 0, 0}}, {{46, 13, -95}, {5, 0, 0}}};
+
+static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex, const double scale[3])
+{
+    for (int i = 0; i < count; i++)
+        for (int side = 1; side >= -1; side -= 2) {
+            double from[3], to[3];
+            vec_copy(list[i].at, from);
+            for (int c = 0; c < 3; c++) to[c] = from[c] * scale[c] + (sex == NORM_MALE ? list[i].male_shift[c] : 0);
+            from[0] *= side;
+            to[0] *= side;
+            warp_add(w, from, to);
+        }
+}
 
 static int place_number(const place *list, int count, const char *label)
 {
@@ -152,6 +173,8 @@ static fields make_fields(const norm_head_params *p, const place *list, int coun
     ANCHORS(&f.upper, skull_anchors);
     ANCHORS(&f.lower, mandible_anchors);
     ANCHORS(&f.skin, skin_anchors);
+    add_dimorphic(&f.upper, skull_dimorphic, 1, p->sex, scale);
+    add_dimorphic(&f.skin, skin_dimorphic, 3, p->sex, scale);
     add_followers(&f.skin, list, count, to, scale);
     free(to);
     free(held);
