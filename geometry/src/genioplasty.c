@@ -7,12 +7,14 @@
 #include <stdio.h>
 
 static const double margin_mm = 15, clear_mm = 0.5;
+static const double least_height_mm = 6, least_apex_mm = 1, step_mm = 0.5; /* below this no plate can be screwed on */
 static const double behind_l6_mm = 17; /* the second molar ends about here */
 
 typedef struct chin {
     const surface *mandible;
     head_frame frame;
     outline lower[2];     /* lower border, left and right */
+    double apex_mm;       /* clearance to root tips; reduced where the chin would be too thin for a plate */
     double y0, z0, slope; /* the plane: z = z0 + slope (y - y0) */
 } chin;
 
@@ -31,7 +33,7 @@ static double exit_y(const chin *c, int side, double from, double to)
 typedef struct guard_point { /* the plane passes at least `below` under it */
     char name[64];
     double local[3], below;
-    bool estimated;
+    bool estimated, root;
 } guard_point;
 
 static int guards(const osteotomy_input *in, const osteotomy_params *p, const head_frame *f, guard_point out[8],
@@ -47,7 +49,7 @@ static int guards(const osteotomy_input *in, const osteotomy_params *p, const he
         landmark_local(in->points, side_label(label, "MF", side), f, g->local);
         count++;
         g = out + count;
-        *g = (guard_point){.below = p->apex_clearance_mm};
+        *g = (guard_point){.below = p->apex_clearance_mm, .root = true};
         snprintf(g->name, sizeof g->name, "lower canine apex %s", word);
         if (landmark_local(in->points, side_label(label, "L3_apex", side), f, g->local)) {
             count++;
@@ -60,7 +62,7 @@ static int guards(const osteotomy_input *in, const osteotomy_params *p, const he
         }
     }
     guard_point *g = out + count++;
-    *g = (guard_point){.name = "lower incisor apex", .below = p->apex_clearance_mm};
+    *g = (guard_point){.name = "lower incisor apex", .below = p->apex_clearance_mm, .root = true};
     if (!landmark_local(in->points, "L1_apex", f, g->local)) {
         landmark_local(in->points, "L1", f, g->local);
         g->local[2] -= LOWER_1_MM;
@@ -69,12 +71,14 @@ static int guards(const osteotomy_input *in, const osteotomy_params *p, const he
     return count;
 }
 
-/* Highest plane of this slope that respects every guard. */
+/* Highest plane of this slope that respects every guard, roots by apex_mm. */
 static void settle(chin *c, const guard_point *g, int count)
 {
     double z = HUGE_VAL;
-    for (int i = 0; i < count; i++)
-        z = fmin(z, g[i].local[2] - g[i].below * sqrt(1 + c->slope * c->slope) - c->slope * (g[i].local[1] - c->y0));
+    for (int i = 0; i < count; i++) {
+        double below = g[i].root ? c->apex_mm : g[i].below;
+        z = fmin(z, g[i].local[2] - below * sqrt(1 + c->slope * c->slope) - c->slope * (g[i].local[1] - c->y0));
+    }
     c->z0 = z;
 }
 
@@ -85,6 +89,21 @@ static double mean_exit(chin *c, const guard_point *g, int count, double from, d
     settle(c, g, count);
     double left = exit_y(c, 1, from, to), right = exit_y(c, -1, from, to);
     return fmin((left + right) / 2, 1e6);
+}
+
+static void place(chin *c, const guard_point *g, int count, double first, double last, double from, double to)
+{
+    c->slope = 0;
+    double leave = mean_exit(c, g, count, from, to);
+    if (leave >= first && leave <= last) return;
+    double want = leave < first ? first : last, low = -0.6, high = 0.6;
+    for (int i = 0; i < 24; i++) {
+        c->slope = (low + high) / 2;
+        if (mean_exit(c, g, count, from, to) < want) low = c->slope;
+        else high = c->slope;
+    }
+    c->slope = low;
+    mean_exit(c, g, count, from, to);
 }
 
 static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin *c, cut_bodies *out, cut_report *r,
@@ -102,19 +121,16 @@ static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin
     c->y0 = mf[1];
     double first = (l6[0][1] + l6[1][1]) / 2, last = first + behind_l6_mm, from = c->y0 + 2,
            to = fmin(go[0][1], go[1][1]) - 5;
-    double leave = mean_exit(c, list, count, from, to);
-    if (leave < first || leave > last) {
-        double want = leave < first ? first : last, low = -0.6, high = 0.6;
-        for (int i = 0; i < 24; i++) {
-            c->slope = (low + high) / 2;
-            if (mean_exit(c, list, count, from, to) < want) low = c->slope;
-            else high = c->slope;
-        }
-        c->slope = low;
-        leave = mean_exit(c, list, count, from, to);
+    for (c->apex_mm = p->apex_clearance_mm;; c->apex_mm = fmax(c->apex_mm - step_mm, least_apex_mm)) {
+        place(c, list, count, first, last, from, to);
+        if (plane_z(c, me[1]) - me[2] >= least_height_mm || c->apex_mm <= least_apex_mm) break;
+    }
+    if (c->apex_mm < p->apex_clearance_mm)
+        report_warning(r, "the chin is low: the cut comes within %.1f mm of the root tips, so that %.1f mm of chin are left to "
+                          "hold a plate", c->apex_mm, plane_z(c, me[1]) - me[2]);
+    if (fabs(c->slope) > 1e-6)
         report_warning(r, "the chin cut is tilted by %.1f degrees against the lower occlusal plane, to leave the lower "
                           "border beside the molars", atan(c->slope) * 180 / acos(-1));
-    }
     double left = exit_y(c, 1, from, to), right = exit_y(c, -1, from, to), end = fmax(left, right);
     if (!(end < to))
         return err_set(e, ERR_GEOMETRY, "the chin cut does not leave the lower border in front of the angles");
