@@ -16,7 +16,8 @@ typedef struct assembly {
     elements el;        /* owned */
     /* elements around each node: source = 4 tet + local node */
     int32_t *node_start, *node_source;
-    /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed) */
+    /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed), or -1
+     * for a coupling, whose block assembly_stiffness leaves to what else adds to it */
     int32_t edge_count;
     int32_t *edge_node, *edge_start, *edge_source;
     /* lower triangle by columns, rows ascending */
@@ -29,9 +30,10 @@ typedef struct assembly {
     double *element_energy, *element_force, *element_block, *edge_block;
 } assembly;
 
-/* Takes *el over (leaves it empty) on success. Refuses (ERR_RESOURCE) a mesh too large for its 32-bit
- * numbers. */
-bool assembly_make(const tetmesh *m, elements *el, const boundary *b, assembly *out, err *e) MUST_CHECK;
+/* Takes *el over (leaves it empty) on success. coupling[2*coupling_count]: further pairs of nodes, low <
+ * high, that the pattern is to hold. Refuses (ERR_RESOURCE) a mesh too large for its 32-bit numbers. */
+bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int32_t *coupling,
+                   int32_t coupling_count, assembly *out, err *e) MUST_CHECK;
 void assembly_free(assembly *a);
 
 /* Energy in uJ at x[3*node_count]; HUGE_VAL where a material has none. force[3*node_count] (may be NULL) in

@@ -10,6 +10,7 @@
  * recorded. */
 #pragma once
 #include "sim/assemble.h"
+#include "sim/contact.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -21,6 +22,7 @@ typedef enum solve_outcome {
     STOPPED_NOT_FINITE,   /* the start has no energy: a tet inverted in a model that forbids it */
     STOPPED_SINGULAR,     /* no shift makes the matrix positive definite */
     STOPPED_MAX_HALVINGS, /* the load step became too small */
+    STOPPED_PENETRATION,  /* in equilibrium, but tissue is deeper in bone or lip than allowed */
     STOPPED_INTERRUPTED
 } solve_outcome;
 const char *solve_outcome_text(solve_outcome outcome);
@@ -42,6 +44,7 @@ typedef struct newton_record {
     double factor_s; /* wall time of factorising for this step */
     double min_j;
     int32_t inverted_count;
+    bool contact; /* counted; false: without contact, or phase A */
 } newton_record;
 
 typedef enum predictor {
@@ -73,8 +76,9 @@ typedef struct equilibrium_problem {
     const attach_map *attach;
     const region_material *materials;
     int32_t material_count;
-    rigid motion[SEGMENT_COUNT]; /* where each bone goes from rest */
-    const double *start_xyz;     /* [3*nodes] a guess at the result, or NULL */
+    const contact_setup *contact; /* NULL: sliding and paired nodes keep in touch, nothing else touches */
+    rigid motion[SEGMENT_COUNT];  /* where each bone goes from rest */
+    const double *start_xyz;      /* [3*nodes] a guess at the result, or NULL */
 } equilibrium_problem;
 
 typedef struct equilibrium {
@@ -87,6 +91,7 @@ typedef struct equilibrium {
     int iterations, factorisations, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
+    contact_report contact;                    /* its energy is in energy_uj */
     double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
     double imbalance;                          /* |sum of these| over the sum of their node forces' norms */
     double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */
@@ -94,9 +99,13 @@ typedef struct equilibrium {
     double factor_flops, memory_peak_mb;
 } equilibrium;
 
-/* Refuses what elements_make, boundary_make, assembly_make and linear_create refuse, (ERR_INPUT) parameters
- * out of range and non-finite motions. A solve that fails is not a refusal: it returns true, and outcome says
- * why. */
+/* With contact sliding and paired nodes are free, and each load is solved in two phases: A without contact to
+ * a loose tolerance (the first load only, and not where rest is the answer), B with it. SOLVED needs the
+ * residual below the tolerance right after colliders are renewed, and no penetration beyond depth_limit_mm.
+ *
+ * Refuses what elements_make, boundary_make, assembly_make, linear_create and contact's own checks refuse,
+ * (ERR_INPUT) parameters out of range and non-finite motions. A solve that fails is not a refusal: it returns
+ * true, and outcome says why. */
 bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out,
                        err *e) MUST_CHECK;
 void equilibrium_free(equilibrium *q);

@@ -43,11 +43,15 @@ static void make_node_lists(assembly *a)
     for (int32_t v = 0; v < a->node_count; v++) a->node_start[v + 1] += a->node_start[v];
 }
 
-static void make_edges(assembly *a)
+static void make_edges(assembly *a, const int32_t *coupling, int32_t coupling_count)
 {
-    int64_t count = ELEMENT_PAIRS * (int64_t)a->tet_count;
+    int64_t own = ELEMENT_PAIRS * (int64_t)a->tet_count, count = own + coupling_count;
     int32_t *low = NEW_ARRAY(int32_t, count), *high = NEW_ARRAY(int32_t, count);
-    for (int64_t i = 0; i < count; i++) {
+    for (int64_t i = own; i < count; i++) {
+        low[i] = coupling[2 * (i - own)];
+        high[i] = coupling[2 * (i - own) + 1];
+    }
+    for (int64_t i = 0; i < own; i++) {
         const int32_t *tet = a->tet + 4 * (i / ELEMENT_PAIRS);
         int32_t u = tet[element_pair[i % ELEMENT_PAIRS][0]], v = tet[element_pair[i % ELEMENT_PAIRS][1]];
         low[i] = u < v ? u : v;
@@ -65,6 +69,10 @@ static void make_edges(assembly *a)
             a->edge_node[2 * (size_t)edges] = low[i];
             a->edge_node[2 * (size_t)edges + 1] = high[i];
             edges++;
+        }
+        if (i >= own) {
+            a->edge_source[k] = -1;
+            continue;
         }
         int32_t first = a->tet[4 * (size_t)(i / ELEMENT_PAIRS) + element_pair[i % ELEMENT_PAIRS][0]];
         a->edge_source[k] = 2 * i + (first != low[i]);
@@ -126,11 +134,12 @@ static void make_pattern(assembly *a, const boundary *b)
     free(column);
 }
 
-bool assembly_make(const tetmesh *m, elements *el, const boundary *b, assembly *out, err *e)
+bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int32_t *coupling,
+                   int32_t coupling_count, assembly *out, err *e)
 {
     assert(el->count == m->tet_count && b->node_count == m->vertex_count);
     /* 2 * 10 * tets and 9 * edges must fit 31 bits; a tet mesh has fewer than 8 edges and nodes per tet */
-    if (m->tet_count > INT32_MAX / 72)
+    if ((int64_t)m->tet_count + coupling_count > INT32_MAX / 72)
         return err_set(e, ERR_RESOURCE, "%d tets are too many, the limit is %d", m->tet_count,
                        INT32_MAX / 72);
     assembly a = {.node_count = m->vertex_count,
@@ -143,7 +152,7 @@ bool assembly_make(const tetmesh *m, elements *el, const boundary *b, assembly *
                   .element_block = NEW_ARRAY(double, 9 * ELEMENT_PAIRS * (size_t)m->tet_count)};
     *el = (elements){0};
     make_node_lists(&a);
-    make_edges(&a);
+    make_edges(&a, coupling, coupling_count);
     a.edge_block = NEW_ARRAY(double, 9 * (size_t)a.edge_count);
     make_pattern(&a, b);
     *out = a;
@@ -242,6 +251,7 @@ static void edge_body(int64_t begin, int64_t end, void *context)
     for (int64_t i = begin; i < end; i++) {
         double sum[9] = {0};
         for (int32_t k = a->edge_start[i]; k < a->edge_start[i + 1]; k++) {
+            if (a->edge_source[k] < 0) continue; /* a coupling: no element feeds it */
             const double *block = a->element_block + 9 * (size_t)(a->edge_source[k] / 2);
             if (a->edge_source[k] % 2 == 0)
                 for (int c = 0; c < 9; c++) sum[c] += block[c];

@@ -55,6 +55,7 @@ void descent_free(descent *d)
 static double evaluate(descent *d, const double *x, double *force, double *g)
 {
     double begin = clock_s(), energy = assembly_energy(&d->t->a, x, force);
+    if (d->touching && isfinite(energy)) energy += contact_energy(d->t->touch, x, force);
     boundary_reduce(&d->t->b, force, g);
     d->out->assemble_s += clock_s() - begin;
     return energy;
@@ -93,7 +94,8 @@ static void record(descent *d, int iteration, double step, hessian_kind kind, do
                          .hessian = kind,
                          .factor_s = factor_s,
                          .min_j = ex.min_j,
-                         .inverted_count = ex.inverted_count};
+                         .inverted_count = ex.inverted_count,
+                         .contact = d->touching};
     if (d->params->progress) d->params->progress(r, d->params->context);
 }
 
@@ -108,6 +110,7 @@ static bool factorise(descent *d, const double *x, hessian_kind *kind, bool *ok,
     d->has_factor = false;
     if (*kind == HESSIAN_TRUE) {
         assembly_stiffness(a, x, PROJECTION_NONE);
+        if (d->touching) contact_stiffness(d->t->touch, x, true, a);
         assembly_matrix(a, &d->t->b);
         d->out->assemble_s += clock_s() - begin;
         if (!linear_factor(d->t->l, a->value, 0, ok, e)) return false;
@@ -116,6 +119,7 @@ static bool factorise(descent *d, const double *x, hessian_kind *kind, bool *ok,
     if (!*ok) {
         double again = clock_s();
         assembly_stiffness(a, x, d->params->projection);
+        if (d->touching) contact_stiffness(d->t->touch, x, false, a);
         assembly_matrix(a, &d->t->b);
         d->out->assemble_s += clock_s() - again;
         if (*kind == HESSIAN_PROJECTED && !linear_factor(d->t->l, a->value, 0, ok, e)) return false;
@@ -215,6 +219,7 @@ static double line_search(descent *d)
 static bool worth_reusing(const descent *d)
 {
     if (!d->has_factor || !d->params->reuse_factor) return false;
+    if (d->touching && contact_stiffness_is_old(d->t->touch)) return false;
     if (d->since_factor < 2) return true;
     linear_stats s = linear_measure(d->t->l);
     /* nanoseconds on one core: 0.07 per flop of a factorisation; a step is a solve (1.5 per entry) and an
@@ -278,39 +283,47 @@ static bool predict(descent *d, const double *x_start, double *seconds, bool *ok
     return true;
 }
 
-bool descent_run(descent *d, double load, double rel_tol, const double *x_start, solve_outcome *outcome,
-                 err *e)
+/* Energy, force and residual of the present iterate, as after a change of what counts. */
+static void measure(descent *d)
 {
-    solver *t = d->t;
-    d->load = load;
-    d->has_factor = false;
-    d->pair_count = 0;
-    double reference = reference_residual(d), factor_s = 0;
-    double floor = assembly_force_noise(&t->a, t->mesh->xyz);
-    boundary_project(&t->b, x_start, d->z);
-    boundary_place(&t->b, d->z, d->x);
-    floor = fmax(floor, assembly_force_noise(&t->a, d->x));
-    d->tolerance = fmax(rel_tol * reference, floor);
-    d->out->reference_mn = reference;
     d->energy = evaluate(d, d->x, d->force, d->g);
     d->residual = sqrt(dot(d->g, d->g, unknowns(d)));
-    bool rest = isfinite(d->energy) && d->residual <= d->tolerance, ok = true;
-    hessian_kind kind = HESSIAN_TRUE;
-    if (!rest && d->params->predictor == PREDICT_ELASTIC && !predict(d, x_start, &factor_s, &ok, e))
-        return false;
-    record(d, 0, 0, HESSIAN_TRUE, factor_s);
-    if (!ok || !isfinite(d->energy)) {
-        *outcome = STOPPED_NOT_FINITE;
-        return true;
-    }
-    d->energy_noise = assembly_energy_noise(&t->a, d->x);
+}
+
+static void refresh(descent *d)
+{
+    contact_refresh(d->t->touch, d->x);
+    measure(d);
+    d->out->contact.refresh_change_mm = contact_refresh_change(d->t->touch);
+}
+
+/* Iterates until the residual is below d->tolerance. */
+static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *outcome, err *e)
+{
+    double factor_s;
+    bool ok = true, fresh = false;
+    int stiffenings = 0;
+    d->energy_noise = assembly_energy_noise(&d->t->a, d->x);
     d->residual_at_factor = d->residual;
     for (int iteration = 1;; iteration++) {
+        bool low = d->residual <= d->tolerance;
+        if (d->touching && !fresh && (low || iteration <= d->t->touch->setup.params.refresh_iterations)) {
+            refresh(d);
+            fresh = true;
+        }
+        if (d->residual <= d->tolerance && d->touching && contact_stiffen(d->t->touch)) {
+            if (++stiffenings > d->t->touch->setup.params.max_stiffenings) {
+                *outcome = STOPPED_PENETRATION;
+                return true;
+            }
+            measure(d);
+            d->has_factor = false;
+        }
         if (d->residual <= d->tolerance) {
             *outcome = SOLVED;
             return true;
         }
-        if (iteration > d->params->max_iterations) {
+        if (iteration > max_iterations) {
             *outcome = STOPPED_MAX_ITERATIONS;
             return true;
         }
@@ -320,7 +333,7 @@ bool descent_run(descent *d, double load, double rel_tol, const double *x_start,
         }
         double step = 0;
         factor_s = 0;
-        kind = worth_reusing(d) ? HESSIAN_REUSED : HESSIAN_TRUE;
+        hessian_kind kind = worth_reusing(d) ? HESSIAN_REUSED : HESSIAN_TRUE;
         for (;;) { /* a direction that leads nowhere is tried again with a safer matrix */
             if (kind != HESSIAN_REUSED) {
                 if (!factorise(d, d->x, &kind, &ok, &factor_s, e)) return false;
@@ -340,9 +353,71 @@ bool descent_run(descent *d, double load, double rel_tol, const double *x_start,
             *outcome = STOPPED_LINE_SEARCH;
             return true;
         }
+        fresh = false;
         d->since_factor++;
         if (d->params->reuse_factor) remember_step(d);
         d->out->iterations++;
+        (*done)++;
         record(d, iteration, step, kind, factor_s);
     }
+}
+
+/* Phase A: where the tissue would go if nothing touched. Its failure only means a worse start for phase B. */
+static bool run_free(descent *d, double reference, bool *interrupted, err *e)
+{
+    const contact_params *p = &d->t->touch->setup.params;
+    double tolerance = d->tolerance;
+    solve_outcome outcome;
+    d->tolerance = fmax(tolerance, p->free_rel_tol * reference);
+    bool ok = iterate(d, p->free_iterations, &d->out->contact.free_iterations, &outcome, e);
+    *interrupted = ok && outcome == STOPPED_INTERRUPTED;
+    d->tolerance = tolerance;
+    return ok;
+}
+
+bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
+                 solve_outcome *outcome, err *e)
+{
+    solver *t = d->t;
+    d->load = load;
+    d->has_factor = false;
+    d->pair_count = 0;
+    d->touching = false;
+    double reference = reference_residual(d), factor_s = 0;
+    double floor = assembly_force_noise(&t->a, t->mesh->xyz);
+    boundary_project(&t->b, x_start, d->z);
+    boundary_place(&t->b, d->z, d->x);
+    floor = fmax(floor, assembly_force_noise(&t->a, d->x));
+    d->tolerance = fmax(rel_tol * reference, floor);
+    d->out->reference_mn = reference;
+    if (t->touch) {
+        d->touching = true;
+        contact_refresh(t->touch, d->x);
+    }
+    measure(d);
+    bool rest = isfinite(d->energy) && d->residual <= d->tolerance, ok = true, interrupted = false;
+    if (!rest && t->touch) {
+        d->touching = false;
+        measure(d);
+    }
+    if (!rest && d->params->predictor == PREDICT_ELASTIC && !predict(d, x_start, &factor_s, &ok, e))
+        return false;
+    record(d, 0, 0, HESSIAN_TRUE, factor_s);
+    if (!ok || !isfinite(d->energy)) {
+        *outcome = STOPPED_NOT_FINITE;
+        return true;
+    }
+    if (!rest && t->touch) {
+        if (free_first && !run_free(d, reference, &interrupted, e)) return false;
+        if (interrupted) {
+            *outcome = STOPPED_INTERRUPTED;
+            return true;
+        }
+        d->touching = true;
+        d->has_factor = false;
+        d->pair_count = 0;
+        refresh(d);
+    }
+    int counted = 0, *done = d->touching ? &d->out->contact.contact_iterations : &counted;
+    return iterate(d, d->params->max_iterations, done, outcome, e);
 }

@@ -2,12 +2,15 @@
 #pragma once
 #include "sim/linear.h"
 #include "sim/newton.h"
+#include "sim/src/contact_state.h"
 
 enum { PAIR_LIMIT = 16 }; /* steps remembered between factorisations */
 
 struct solver {
     const tetmesh *mesh;
-    const attach_map *attach;
+    const attach_map *attach; /* the caller's, or with contact `loosened` */
+    attach_map loosened;
+    contact *touch; /* NULL: no contact */
     boundary b;
     assembly a;
     linear *l; /* NULL where nothing is unknown */
@@ -27,6 +30,7 @@ typedef struct descent {
     /* L-BFGS memory, newest last; q and alpha are work */
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
+    bool touching;   /* contact counts now */
     bool has_factor; /* of this load's matrix, true or projected */
     int since_factor;
     double residual_at_factor;
@@ -35,7 +39,7 @@ typedef struct descent {
 void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out);
 void descent_free(descent *d);
 /* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they
- * were). False: refused. *outcome is never SOLVED unless the residual is below the tolerance; d->x is the
- * last iterate. */
-bool descent_run(descent *d, double load, double rel_tol, const double *x_start, solve_outcome *outcome,
-                 err *e) MUST_CHECK;
+ * were). free_first: with contact, phase A comes before. False: refused. *outcome is never SOLVED unless the
+ * residual is below the tolerance; d->x is the last iterate. */
+bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
+                 solve_outcome *outcome, err *e) MUST_CHECK;

@@ -22,6 +22,8 @@ const char *solve_outcome_text(solve_outcome outcome)
         return "stopped: the stiffness matrix cannot be made positive definite";
     case STOPPED_MAX_HALVINGS:
         return "stopped: the load step became too small";
+    case STOPPED_PENETRATION:
+        return "stopped: tissue stays too deep in what it touches";
     case STOPPED_INTERRUPTED:
         return "interrupted";
     }
@@ -67,6 +69,21 @@ static bool check_params(const solve_params *p, err *e)
     return true;
 }
 
+/* Sliding and paired nodes become free ones that touch. */
+static bool make_contact(solver *t, const equilibrium_problem *problem, err *e)
+{
+    boundary checked;
+    double young = 0;
+    if (!boundary_make(problem->mesh, problem->attach, &checked, e)) return false;
+    boundary_free(&checked);
+    for (int32_t i = 0; i < problem->material_count; i++)
+        young = fmax(young, problem->materials[i].material.young_kpa);
+    if (!contact_make(problem->mesh, problem->attach, problem->contact, young, &t->touch, e)) return false;
+    t->loosened = contact_loosened(problem->attach);
+    t->attach = &t->loosened;
+    return true;
+}
+
 bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e)
 {
     double begin = clock_s();
@@ -75,9 +92,11 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     solver *t = NEW_ARRAY(solver, 1);
     t->mesh = problem->mesh;
     t->attach = problem->attach;
-    bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e) &&
-              boundary_make(problem->mesh, problem->attach, &t->b, e) &&
-              assembly_make(problem->mesh, &el, &t->b, &t->a, e);
+    bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e);
+    if (ok && problem->contact) ok = make_contact(t, problem, e);
+    ok = ok && boundary_make(t->mesh, t->attach, &t->b, e) &&
+         assembly_make(t->mesh, &el, &t->b, t->touch ? t->touch->coupling : NULL,
+                       t->touch ? t->touch->coupling_count : 0, &t->a, e);
     if (ok && t->b.unknown_count > 0)
         ok = linear_create(t->b.unknown_count, t->a.column_start, t->a.row, blas_threads, &t->l, e);
     elements_free(&el);
@@ -94,6 +113,8 @@ void solver_destroy(solver **t)
 {
     if (!*t) return;
     linear_destroy(&(*t)->l);
+    contact_destroy(&(*t)->touch);
+    attach_map_free(&(*t)->loosened);
     assembly_free(&(*t)->a);
     boundary_free(&(*t)->b);
     free(*t);
@@ -117,6 +138,12 @@ static void find_reactions(const solver *t, const double *force, equilibrium *q)
         vec_add(sum, held, sum);
         norms += vec_norm(held);
     }
+    for (int s = 0; t->touch && s < SEGMENT_COUNT; s++) {
+        const double *f = q->contact.bone_force_mn[s];
+        vec_add(q->segment_force_mn[s], f, q->segment_force_mn[s]);
+        vec_add(sum, f, sum);
+        norms += vec_norm(f);
+    }
     q->imbalance = norms > 0 ? vec_norm(sum) / norms : 0;
 }
 
@@ -125,6 +152,7 @@ static void move_bones(solver *t, const rigid motion[SEGMENT_COUNT], double load
     rigid part[SEGMENT_COUNT];
     for (int s = 0; s < SEGMENT_COUNT; s++) part[s] = motion_part(&motion[s], load);
     boundary_move(&t->b, t->mesh, t->attach, part);
+    if (t->touch) contact_move(t->touch, part, &t->b.guide, t->mesh->xyz);
 }
 
 bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz,
@@ -148,6 +176,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     double *at_load = COPY_ARRAY(double, t->mesh->xyz, n), *start = NEW_ARRAY(double, n);
     descent d;
     descent_make(&d, t, params, &q);
+    if (t->touch) contact_restart(t->touch);
     bool ok = true, from_guess = start_xyz != NULL;
     int eased = 0;
     double step = 1.0 / params->load_steps;
@@ -168,7 +197,8 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         }
         q.loads++;
         double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
-        ok = descent_run(&d, target, rel_tol, start, &outcome, e);
+        bool loose = t->touch && q.load_reached == 0 && !from_guess;
+        ok = descent_run(&d, target, rel_tol, loose, start, &outcome, e);
         if (!ok || outcome == STOPPED_INTERRUPTED) break;
         if (outcome == SOLVED) {
             q.load_reached = target;
@@ -193,6 +223,16 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         q.residual_mn = d.residual;
         q.tolerance_mn = d.tolerance;
         q.extremes = assembly_extremes(&t->a, q.xyz, true);
+        if (t->touch) {
+            memcpy(start, d.x, n * sizeof *start);
+            q.energy_uj = assembly_energy(&t->a, start, d.force) + contact_energy(t->touch, start, d.force);
+            int a = q.contact.free_iterations, b = q.contact.contact_iterations;
+            double change = q.contact.refresh_change_mm;
+            q.contact = contact_measure(t->touch);
+            q.contact.free_iterations = a;
+            q.contact.contact_iterations = b;
+            q.contact.refresh_change_mm = change;
+        }
         find_reactions(t, d.force, &q);
         q.unknown_count = t->b.unknown_count;
         if (t->l) {

@@ -1,0 +1,71 @@
+/* contact: tissue against bone that may part from it, and lip against lip.
+ *
+ * A collider is a signed distance by implicit moving least squares (Kolluri 2008): samples are the vertices
+ * of a surface with their unit normals n_i and a third a_i of the area around them,
+ *   d(x) = sum_i w_i n_i.(x - x_i) / S,  w_i = 5 a_i / (pi h_i^2) (1 - |x - x_i|^2 / h_i^2)^4 within h_i,
+ * S = sum_i w_i is 1 on an even plane and falls to 0 off the rim of a surface.
+ * A node of area A has the energy  A k C(S) (tau - d)^3  where d < tau, else none; C rises smoothly from 0 to
+ * 1 at the rim. tau = min(activation, gap at rest): tissue that lies on a bone at rest, or by the coarseness
+ * of surfaces within it, feels nothing until it comes nearer than it was, so a plan that moves nothing moves
+ * nothing; elsewhere the surfaces themselves must meet. No friction; no suction: tissue may lift off.
+ *
+ * Only samples that face the node are asked (a plate thinner than h would else have no inside). A node that
+ * got deeper than 0.4 h under a surface sees with a wider support, renewed at each Newton step, until it is
+ * out. Lips: the samples are nodes of the other lip. Their normals and weights are frozen at each refresh, so
+ * the gap is linear in the nodes of both lips: equal and opposite forces, a positive semidefinite stiffness.
+ */
+#pragma once
+#include "geometry/rigid.h"
+#include "geometry/segments.h"
+#include "geometry/tetmesh.h"
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct contact_params {
+    double support;        /* h over the longest edge at a vertex; 1.5 to 2 */
+    double activation_mm;  /* where surfaces apart at rest begin to push */
+    double depth_mm;       /* expected under pressure_kpa: k = pressure / (3 depth^2) */
+    double pressure_kpa;   /* 0: Young's modulus of the stiffest tissue */
+    double depth_limit_mm; /* deeper contacts are stiffened and solved again; refused as a result */
+    int max_stiffenings;   /* of all contacts that are too deep, each by 4 */
+    double facing_cos;     /* samples whose normal is farther from the node's own than this are not asked */
+    double slide_mm;     /* how far lips may slide before their coupling leaves the matrix (not the forces) */
+    double free_rel_tol; /* phase A, without contact: tolerance and */
+    int free_iterations; /* most iterations; 0: no phase A */
+    int refresh_iterations; /* colliders are renewed in each of so many iterations, then when those converged
+                             */
+} contact_params;
+
+contact_params contact_params_default(void);
+
+/* Borrowed until solver_destroy. */
+typedef struct contact_setup {
+    contact_params params;
+    const surface *bone[SEGMENT_COUNT]; /* at rest, outward, moves with its segment; open patches allowed; or
+                                           NULL */
+    int32_t upper_count, lower_count;
+    const int32_t *upper_lip, *lower_lip; /* [3*count] triangles of mesh nodes, out of the tissue */
+    int32_t extra_count;
+    const int32_t *extra; /* free nodes that meet bone as well, beside sliding and paired ones */
+} contact_setup;
+
+typedef struct contact_report {
+    bool on;
+    int32_t nodes, links; /* that could touch; node-collider combinations */
+    int32_t left_out;     /* combinations that lie inside each other at rest */
+    int32_t active_nodes; /* that do touch */
+    double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
+                             is less than 0 */
+    double bone_area_mm2, lip_area_mm2, pressure_kpa; /* of touching nodes; largest */
+    double energy_uj;
+    int free_iterations, contact_iterations; /* phases A and B, all loads */
+    int refreshes, stiffenings;
+    double refresh_change_mm; /* of the active gaps in the last refresh */
+    int32_t uncoupled;        /* lip contacts whose coupling was not in the matrix at its last filling */
+    double bone_force_mn[SEGMENT_COUNT][3]; /* on the tissue */
+} contact_report;
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,399 @@
+#include "geometry/mem.h"
+#include "geometry/parallel.h"
+#include "geometry/vec.h"
+#include "sim/src/contact_state.h"
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NODE_GRAIN = 16 };
+
+static const double shallow = 0.4;    /* of h: what the plain support sees well */
+static const double wide = 1 / 0.4;   /* support of a deep node over its distance; meets 1 at shallow */
+static const double candidate_mm = 2; /* samples so far beyond the support are kept as candidates */
+static const double covered = 0.5;    /* of C: contacts that count for the depth */
+static const double stiffening_step = 4;
+
+static bool is_lip(const contact_link *link)
+{
+    return link->collider >= SEGMENT_COUNT;
+}
+
+void contact_restart(contact *c)
+{
+    int32_t left_out = c->report.left_out;
+    for (int32_t l = 0; l < c->link_count; l++) c->link[l].stiffening = 1;
+    c->report = (contact_report){.left_out = left_out};
+}
+
+void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *guide, const double *rest_xyz)
+{
+    c->guide = *guide;
+    c->motion_reach_mm = 0;
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        c->motion[s] = motion[s];
+        c->back[s] = rigid_is_identity(&motion[s]) ? rigid_identity() : rigid_inverse(&motion[s]);
+        for (int32_t i = 0; i < c->node_count; i++) {
+            double p[3], q[3];
+            rigid_apply(&motion[s], rest_xyz + 3 * (size_t)c->node[i], p);
+            rigid_apply(guide, rest_xyz + 3 * (size_t)c->node[i], q);
+            c->motion_reach_mm = fmax(c->motion_reach_mm, vec_distance(p, q));
+        }
+    }
+}
+
+typedef struct contact_job {
+    contact *c;
+    const double *x;
+    bool exact;
+    double *block; /* [9*node_count] */
+} contact_job;
+
+/* Where the node is seen by the collider, and the direction a sample must face. */
+static void look(const contact *c, int32_t i, const contact_link *link, const double *x, double at[3],
+                 double facing[3])
+{
+    vec_copy(x + 3 * (size_t)c->node[i], at);
+    if (is_lip(link)) {
+        int own = link->collider == COLLIDER_UPPER ? COLLIDER_LOWER : COLLIDER_UPPER;
+        vec_scale(c->cloud[own].n + 3 * (size_t)c->own_sample[i], -1, facing);
+        return;
+    }
+    rigid_rotate(&c->guide, c->outward + 3 * (size_t)i, facing);
+    rigid_rotate(&c->back[link->collider], facing, facing);
+    vec_scale(facing, -1, facing);
+    rigid_apply(&c->back[link->collider], at, at);
+}
+
+static void refresh_link(contact *c, int32_t i, contact_link *link, const double *x)
+{
+    const imls_cloud *cloud = &c->cloud[link->collider];
+    double at[3], facing[3], best = HUGE_VAL;
+    int32_t nearest = -1;
+    look(c, i, link, x, at, facing);
+    link->near = false;
+    link->scale = 1;
+    link->count = 0;
+    link->plane_mm = HUGE_VAL;
+    for (int32_t s = 0; s < cloud->count; s++) {
+        double r[3];
+        vec_sub(at, cloud->x + 3 * (size_t)s, r);
+        double square = vec_dot(r, r);
+        if (square >= best || vec_dot(cloud->n + 3 * (size_t)s, facing) < c->setup.params.facing_cos)
+            continue;
+        best = square;
+        nearest = s;
+    }
+    if (nearest < 0) return;
+    double r[3], h = cloud->h[nearest], distance = sqrt(best);
+    vec_sub(at, cloud->x + 3 * (size_t)nearest, r);
+    link->plane_mm = vec_dot(cloud->n + 3 * (size_t)nearest, r);
+    double aside = sqrt(fmax(0, best - link->plane_mm * link->plane_mm));
+    if (link->plane_mm < 0 && distance > shallow * h && aside <= fmax(h, distance / 2)) {
+        if (distance > 2 * c->motion_reach_mm + h) return;
+        link->scale = wide * distance / h;
+    }
+    for (int32_t s = 0; s < cloud->count; s++) {
+        vec_sub(at, cloud->x + 3 * (size_t)s, r);
+        double reach = link->scale * cloud->h[s] + candidate_mm;
+        if (vec_dot(r, r) >= reach * reach ||
+            vec_dot(cloud->n + 3 * (size_t)s, facing) < c->setup.params.facing_cos)
+            continue;
+        if (link->count == link->room) {
+            link->room = 2 * link->room + 16;
+            link->sample = GROW_ARRAY(int32_t, link->sample, link->room);
+            if (is_lip(link)) link->weight = GROW_ARRAY(double, link->weight, link->room);
+        }
+        link->sample[link->count++] = s;
+    }
+    link->near = link->count > 0;
+    if (!link->near || !is_lip(link)) return;
+    double slope;
+    imls_value v = imls_at(cloud, link->sample, link->count, link->scale, at, false, link->weight);
+    link->cover = imls_cover(v.S, &slope);
+    link->near = link->cover > 0;
+    if (!link->near) return;
+    vec_copy(v.grad, link->m);
+    link->base = v.d - vec_dot(v.grad, at);
+    int32_t kept = 0;
+    for (int32_t k = 0; k < link->count; k++) { /* mere candidates are of no use here */
+        if (!(link->weight[k] > 0)) continue;
+        link->base += link->weight[k] * vec_dot(v.grad, cloud->x + 3 * (size_t)link->sample[k]);
+        link->sample[kept] = link->sample[k];
+        link->weight[kept++] = link->weight[k];
+    }
+    link->count = kept;
+}
+
+static void refresh_body(int64_t begin, int64_t end, void *context)
+{
+    const contact_job *job = context;
+    contact *c = job->c;
+    for (int64_t i = begin; i < end; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
+            c->link[l].delta_before = c->link[l].delta;
+            if (!c->link[l].left_out) refresh_link(c, (int32_t)i, &c->link[l], job->x);
+        }
+}
+
+void contact_refresh(contact *c, const double *x)
+{
+    for (int side = 0; side < 2; side++) {
+        imls_cloud *cloud = &c->cloud[COLLIDER_UPPER + side];
+        for (int32_t i = 0; i < cloud->count; i++)
+            vec_copy(x + 3 * (size_t)c->lip_node[side][i], cloud->x + 3 * (size_t)i);
+        if (cloud->count) imls_shape(cloud, c->lip_tri[side], c->lip_tri_count[side], 0);
+    }
+    contact_job job = {.c = c, .x = x};
+    parallel_for(c->node_count, NODE_GRAIN, refresh_body, &job);
+    c->report.refreshes++;
+}
+
+double contact_refresh_change(const contact *c)
+{
+    double worst = 0;
+    for (int32_t l = 0; l < c->link_count; l++)
+        worst = fmax(worst, fabs(c->link[l].delta - c->link[l].delta_before));
+    return worst;
+}
+
+static double stiffness_of(const contact *c, int32_t i, const contact_link *link)
+{
+    return c->area[i] * c->k * link->stiffening * (is_lip(link) ? 0.5 : 1); /* both lips see each contact */
+}
+
+static double lip_gap(const contact *c, int32_t i, const contact_link *link, const double *x)
+{
+    const int32_t *node = c->lip_node[link->collider - COLLIDER_UPPER];
+    double gap = link->base + vec_dot(link->m, x + 3 * (size_t)c->node[i]);
+    for (int32_t k = 0; k < link->count; k++)
+        gap -= link->weight[k] * vec_dot(link->m, x + 3 * (size_t)node[link->sample[k]]);
+    return gap;
+}
+
+/* Energy of one link; fills what belongs to the last evaluation. */
+static double evaluate_link(const contact *c, int32_t i, contact_link *link, const double *x)
+{
+    link->gap = HUGE_VAL;
+    link->delta = 0;
+    memset(link->force, 0, sizeof link->force);
+    if (!link->near || link->left_out) return 0;
+    double push[3], cover, slope = 0, rim[3] = {0};
+    if (is_lip(link)) {
+        link->gap = lip_gap(c, i, link, x);
+        cover = link->cover;
+        vec_copy(link->m, push);
+    } else {
+        double at[3];
+        rigid_apply(&c->back[link->collider], x + 3 * (size_t)c->node[i], at);
+        imls_value v =
+            imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at, false, NULL);
+        cover = imls_cover(v.S, &slope);
+        if (!(cover > 0)) return 0;
+        link->gap = v.d;
+        link->cover = cover;
+        vec_copy(v.grad, push);
+        vec_scale(v.S_grad, slope, rim);
+    }
+    double delta = link->threshold_mm - link->gap, weight = stiffness_of(c, i, link);
+    if (!(delta > 0)) return 0;
+    link->delta = delta;
+    vec_scale(push, -3 * weight * cover * delta * delta, link->force);
+    vec_axpy(link->force, weight * delta * delta * delta, rim, link->force);
+    if (!is_lip(link)) rigid_rotate(&c->motion[link->collider], link->force, link->force);
+    return weight * cover * delta * delta * delta;
+}
+
+static void energy_body(int64_t begin, int64_t end, void *context)
+{
+    const contact_job *job = context;
+    contact *c = job->c;
+    for (int64_t i = begin; i < end; i++) {
+        c->energy[i] = 0;
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
+            c->energy[i] += evaluate_link(c, (int32_t)i, &c->link[l], job->x);
+    }
+}
+
+double contact_energy(contact *c, const double *x, double *force)
+{
+    contact_job job = {.c = c, .x = x};
+    parallel_for(c->node_count, NODE_GRAIN, energy_body, &job);
+    double sum = 0;
+    for (int32_t i = 0; i < c->node_count; i++) {
+        sum += c->energy[i];
+        for (int32_t l = c->link_start[i]; force && l < c->link_start[i + 1]; l++) {
+            const contact_link *link = &c->link[l];
+            if (!(link->delta > 0)) continue;
+            double *f = force + 3 * (size_t)c->node[i];
+            vec_add(f, link->force, f);
+            for (int32_t k = 0; is_lip(link) && k < link->count; k++) {
+                f = force + 3 * (size_t)c->lip_node[link->collider - COLLIDER_UPPER][link->sample[k]];
+                vec_axpy(f, -link->weight[k], link->force, f);
+            }
+        }
+    }
+    return sum;
+}
+
+/* Adds w m m^T for a pair of entries. */
+static void add_outer(double *block, double w, const double m[3])
+{
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) block[3 * a + b] += w * m[a] * m[b];
+}
+
+static void stiffness_body(int64_t begin, int64_t end, void *context)
+{
+    const contact_job *job = context;
+    contact *c = job->c;
+    for (int64_t i = begin; i < end; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
+            contact_link *link = &c->link[l];
+            evaluate_link(c, (int32_t)i, link, job->x);
+            link->delta_factored = link->delta;
+            if (!(link->delta > 0) || is_lip(link)) continue;
+            double at[3], m[3], *block = job->block + 9 * i;
+            rigid_apply(&c->back[link->collider], job->x + 3 * (size_t)c->node[i], at);
+            imls_value v = imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at,
+                                   job->exact, NULL);
+            double weight = stiffness_of(c, (int32_t)i, link) * link->cover;
+            rigid_rotate(&c->motion[link->collider], v.grad, m);
+            add_outer(block, 6 * weight * link->delta, m);
+            if (!job->exact) continue;
+            const double *R = c->motion[link->collider].r;
+            double turned[9];
+            for (int a = 0; a < 3; a++)
+                for (int b = 0; b < 3; b++) {
+                    turned[3 * a + b] = 0;
+                    for (int p = 0; p < 3; p++)
+                        for (int q = 0; q < 3; q++)
+                            turned[3 * a + b] += R[3 * a + p] * v.hess[3 * p + q] * R[3 * b + q];
+                }
+            for (int k = 0; k < 9; k++) block[k] -= 3 * weight * link->delta * link->delta * turned[k];
+        }
+}
+
+/* Block of nodes u <= v, NULL where the pattern has none. */
+static double *block_of(const assembly *a, const int32_t *first_edge, int32_t u, int32_t v)
+{
+    int32_t low = first_edge[u], high = first_edge[u + 1];
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (a->edge_node[2 * (size_t)middle + 1] < v)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < first_edge[u + 1] && a->edge_node[2 * (size_t)low + 1] == v ? a->edge_block + 9 * (size_t)low
+                                                                             : NULL;
+}
+
+static double *block_between(const assembly *a, const int32_t *first_edge, int32_t u, int32_t v)
+{
+    return u < v ? block_of(a, first_edge, u, v) : block_of(a, first_edge, v, u);
+}
+
+/* w (m.x_i - sum weight m.x_k)^2 / 2. Where a pair is missing in the pattern, the diagonal bound
+ * w (m.x_i)^2 + w sum weight (m.x_k)^2 instead: still positive, only slower. */
+static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, int32_t i,
+                    const contact_link *link)
+{
+    const int32_t *name = c->lip_node[link->collider - COLLIDER_UPPER];
+    double w = 6 * stiffness_of(c, i, link) * link->cover * link->delta;
+    int32_t v = c->node[i];
+    bool whole = true;
+    for (int32_t k = 0; whole && k < link->count; k++) {
+        int32_t p = name[link->sample[k]];
+        whole = block_between(a, first_edge, v, p) != NULL;
+        for (int32_t j = 0; whole && j < k; j++)
+            whole = block_between(a, first_edge, p, name[link->sample[j]]) != NULL;
+    }
+    c->report.uncoupled += !whole;
+    add_outer(block_of(a, first_edge, v, v), whole ? w : 2 * w, link->m);
+    for (int32_t k = 0; k < link->count; k++) {
+        int32_t p = name[link->sample[k]];
+        double share = link->weight[k];
+        add_outer(block_of(a, first_edge, p, p), whole ? w * share * share : 2 * w * share, link->m);
+        if (!whole) continue;
+        add_outer(block_between(a, first_edge, v, p), -w * share, link->m);
+        for (int32_t j = 0; j < k; j++)
+            add_outer(block_between(a, first_edge, p, name[link->sample[j]]), w * share * link->weight[j],
+                      link->m);
+    }
+}
+
+void contact_stiffness(contact *c, const double *x, bool exact, assembly *a)
+{
+    contact_job job = {.c = c, .x = x, .exact = exact, .block = NEW_ARRAY(double, 9 * (size_t)c->node_count)};
+    int32_t *first_edge = NEW_ARRAY(int32_t, (size_t)a->node_count + 1);
+    parallel_for(c->node_count, NODE_GRAIN, stiffness_body, &job);
+    for (int32_t k = 0; k < a->edge_count; k++) first_edge[a->edge_node[2 * (size_t)k] + 1] = k + 1;
+    for (int32_t v = 0; v < a->node_count; v++)
+        first_edge[v + 1] = first_edge[v + 1] > first_edge[v] ? first_edge[v + 1] : first_edge[v];
+    c->report.uncoupled = 0;
+    for (int32_t i = 0; i < c->node_count; i++) {
+        double *block = block_of(a, first_edge, c->node[i], c->node[i]);
+        for (int k = 0; k < 9; k++) block[k] += job.block[9 * (size_t)i + (size_t)k];
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
+            if (is_lip(&c->link[l]) && c->link[l].delta > 0) add_lip(c, a, first_edge, i, &c->link[l]);
+    }
+    free(first_edge);
+    free(job.block);
+}
+
+bool contact_stiffness_is_old(const contact *c)
+{
+    for (int32_t l = 0; l < c->link_count; l++)
+        if (fabs(c->link[l].delta - c->link[l].delta_factored) > c->setup.params.depth_mm / 4) return true;
+    return false;
+}
+
+static double depth_of(const contact_link *link)
+{
+    if (!(link->delta > 0) || link->cover < covered) return 0;
+    return fmax(0, link->depth_from_mm - link->gap);
+}
+
+bool contact_stiffen(contact *c)
+{
+    bool any = false;
+    for (int32_t l = 0; l < c->link_count; l++)
+        if (depth_of(&c->link[l]) > c->setup.params.depth_limit_mm) {
+            c->link[l].stiffening *= stiffening_step;
+            any = true;
+        }
+    c->report.stiffenings += any;
+    return any;
+}
+
+contact_report contact_measure(const contact *c)
+{
+    contact_report r = c->report;
+    r.on = true;
+    r.nodes = c->node_count;
+    r.links = c->link_count;
+    r.active_nodes = 0;
+    r.depth_mm = r.bone_area_mm2 = r.lip_area_mm2 = r.pressure_kpa = r.energy_uj = 0;
+    memset(r.bone_force_mn, 0, sizeof r.bone_force_mn);
+    for (int32_t i = 0; i < c->node_count; i++) {
+        bool bone = false, lip = false;
+        r.energy_uj += c->energy[i];
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
+            const contact_link *link = &c->link[l];
+            r.depth_mm = fmax(r.depth_mm, depth_of(link));
+            if (!is_lip(link))
+                vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);
+            double pressure = vec_norm(link->force) / c->area[i] * (is_lip(link) ? 2 : 1);
+            r.pressure_kpa = fmax(r.pressure_kpa, pressure);
+            /* touching begins where the force is worth a name */
+            if (!(pressure > 1e-6 * c->k * c->setup.params.depth_mm * c->setup.params.depth_mm)) continue;
+            bone |= !is_lip(link);
+            lip |= is_lip(link);
+        }
+        r.active_nodes += bone || lip;
+        if (bone) r.bone_area_mm2 += c->area[i];
+        if (lip) r.lip_area_mm2 += c->area[i] / 2; /* both sides */
+    }
+    return r;
+}

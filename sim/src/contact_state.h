@@ -1,0 +1,68 @@
+/* contact_state: what could touch what, and what does. */
+#pragma once
+#include "sim/assemble.h"
+#include "sim/contact.h"
+#include "sim/src/contact_imls.h"
+
+enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* after the bones: the lips */
+
+/* One node against one collider. */
+typedef struct contact_link {
+    int32_t collider;
+    bool left_out, near;
+    double threshold_mm;  /* tau */
+    double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
+    double stiffening;
+    /* frozen at refresh */
+    double scale;    /* of the support radii */
+    double plane_mm; /* height over the nearest facing sample's plane */
+    int32_t count, room, *sample;
+    double *weight, base, m[3], cover; /* lips: gap = base + m.(x - sum weight x_sample) */
+    /* of the last contact_energy */
+    double gap, delta, force[3]; /* delta = tau - gap where positive and covered, else 0; dE/dx */
+    double delta_before, delta_factored;
+} contact_link;
+
+typedef struct contact {
+    contact_setup setup;
+    double k; /* kPa/mm2 */
+    int32_t mesh_node_count, node_count;
+    int32_t *node;          /* [node_count] mesh numbers */
+    double *area, *outward; /* rest: mm2; unit, out of the tissue */
+    int32_t *own_sample;    /* [node_count] number in its own lip's cloud, -1: no lip */
+    imls_cloud cloud[COLLIDER_COUNT];
+    int32_t *lip_node[2], *lip_tri[2], lip_tri_count[2]; /* mesh numbers of samples; triangles of samples */
+    double motion_reach_mm;
+    rigid motion[SEGMENT_COUNT], back[SEGMENT_COUNT], guide;
+    int32_t link_count, *link_start; /* [node_count + 1] */
+    contact_link *link;
+    double *energy;
+    int32_t coupling_count, *coupling; /* [2*count] mesh nodes that lips couple, low < high */
+    contact_report report;             /* running counts */
+} contact;
+
+/* attach: as the caller gave it, with sliding and paired nodes. Refuses (ERR_INPUT) parameters out of range,
+ * sliding nodes whose segment has no surface, pairs without lip faces, broken surfaces and face lists. */
+bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setup *setup, double young_kpa,
+                  contact **out, err *e) MUST_CHECK;
+void contact_destroy(contact **c);
+/* A copy of the map in which sliding and paired nodes are free. */
+attach_map contact_loosened(const attach_map *attach);
+
+/* Forgets stiffenings and counts of the last plan. */
+void contact_restart(contact *c);
+void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *guide, const double *rest_xyz);
+/* Renews candidates, supports and the frozen lips at x[3*nodes]. */
+void contact_refresh(contact *c, const double *x);
+/* Energy in uJ; adds to force[3*nodes] (may be NULL). */
+double contact_energy(contact *c, const double *x, double *force);
+/* Adds to a->edge_block. exact: with the curvature of the distance (indefinite), else Gauss-Newton. */
+void contact_stiffness(contact *c, const double *x, bool exact, assembly *a);
+/* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
+bool contact_stiffness_is_old(const contact *c);
+/* Of active gaps between the energies before and after the last refresh, mm. */
+double contact_refresh_change(const contact *c);
+/* Stiffens what is deeper than the limit; false: nothing is. */
+bool contact_stiffen(contact *c);
+/* Of the last contact_energy. */
+contact_report contact_measure(const contact *c);
