@@ -3,13 +3,13 @@
 
 json_t *repair_report_json(const repair_report *r)
 {
-    return json_pack("{si si si si sf si sf si si sb sf}", "welded_vertices", r->welded_vertices,
+    return json_pack("{si si si si sf si sf si si sb sf si}", "welded_vertices", r->welded_vertices,
                      "degenerate_triangles", r->degenerate_triangles, "components_found", r->components_found,
                      "components_dropped", r->components_dropped, "dropped_area_mm2", r->dropped_area_mm2,
                      "holes_filled", r->holes_filled, "widest_hole_mm", r->widest_hole_mm,
                      "self_intersections_found", r->self_intersections_found, "self_intersections_left",
                      r->self_intersections_left, "wrapped", r->wrapped, "max_deviation_mm",
-                     r->max_deviation_mm);
+                     r->max_deviation_mm, "vertices_moved", r->vertices_moved);
 }
 
 json_t *cuts_report(const cut_report *r)

@@ -1,6 +1,6 @@
-// Repair of scanned surfaces. Order of work: soup -> manifold -> small shells out -> holes shut -> touching sheets
-// apart -> self-intersections cut out and refilled -> shells nested and oriented. A wrap replaces the surface only
-// when all of that leaves an intersection.
+// Repair of scanned surfaces. Order of work: soup -> manifold -> small shells out -> holes shut -> touching
+// sheets apart -> self-intersections cut out and refilled -> shells nested and oriented. A wrap replaces the
+// surface only when all of that leaves an intersection.
 #include "geometry/repair.h"
 #include "geometry/cgal/convert.hpp"
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
@@ -32,16 +32,19 @@ using face_pair = std::pair<face, face>;
 
 namespace {
 
-// Two sheets that meet in one point or edge are drawn apart by this share of the way to their own neighbours, at
-// most this far: enough for exact predicates, far below the voxel.
+// Two sheets that meet in one point or edge are drawn apart by this share of the way to their own neighbours,
+// at most this far: enough for exact predicates, far below the voxel.
 constexpr double pinch_share = 0.1, pinch_limit_mm = 0.05;
+constexpr double moved_mm = 0.1;
 constexpr double wide_hole_mm = 5; // wider patches are refined, so that no long thin triangles span a hole
 
 std::vector<face_pair> intersections(const mesh &m, unsigned limit = 0)
 {
     std::vector<face_pair> pairs;
-    if (limit) PMP::self_intersections(m, std::back_inserter(pairs), np::maximum_number(limit));
-    else PMP::self_intersections(m, std::back_inserter(pairs));
+    if (limit)
+        PMP::self_intersections(m, std::back_inserter(pairs), np::maximum_number(limit));
+    else
+        PMP::self_intersections(m, std::back_inserter(pairs));
     return pairs;
 }
 
@@ -51,9 +54,7 @@ mesh manifold_mesh(const surface &in, repair_report &r)
     std::vector<triangle> triangles;
     soup_from_surface(in, points, triangles);
     r.welded_vertices = static_cast<int32_t>(PMP::merge_duplicate_points_in_polygon_soup(points, triangles));
-    auto flat = [&](const triangle &t) {
-        return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    };
+    auto flat = [&](const triangle &t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
     auto first = std::remove_if(triangles.begin(), triangles.end(), flat);
     r.degenerate_triangles = static_cast<int32_t>(triangles.end() - first);
     triangles.erase(first, triangles.end());
@@ -116,13 +117,15 @@ int32_t fill_holes(mesh &m, repair_report *r)
         std::vector<vertex> inner;
         if (width > wide_hole_mm)
             PMP::triangulate_and_refine_hole(m, h, std::back_inserter(patch), std::back_inserter(inner));
-        else PMP::triangulate_hole(m, h, std::back_inserter(patch));
+        else
+            PMP::triangulate_hole(m, h, std::back_inserter(patch));
         if (patch.empty()) { // the Delaunay search space can be too small for a crumpled border
-            PMP::triangulate_hole(m, h, std::back_inserter(patch),
-                                  np::use_delaunay_triangulation(false));
+            PMP::triangulate_hole(m, h, std::back_inserter(patch), np::use_delaunay_triangulation(false));
         }
-        if (patch.empty()) open++;
-        else if (r) r->holes_filled++;
+        if (patch.empty())
+            open++;
+        else if (r)
+            r->holes_filled++;
         if (r) r->widest_hole_mm = std::max(r->widest_hole_mm, width);
     }
     if (r) r->boundary_loops += static_cast<int32_t>(borders.size());
@@ -189,8 +192,10 @@ int32_t remove_intersections(mesh &m, repair_report &r)
     for (int rings = 0; rings < 4 && !pairs.empty(); rings++) {
         mesh copy = m;
         try {
-            if (rings == 0) PMP::experimental::remove_self_intersections(m, np::preserve_genus(false));
-            else cut_out_and_refill(m, pairs, rings);
+            if (rings == 0)
+                PMP::experimental::remove_self_intersections(m, np::preserve_genus(false));
+            else
+                cut_out_and_refill(m, pairs, rings);
         } catch (const CGAL::Failure_exception &) {
             m = copy; // a try that breaks a precondition leaves no trace; the next one is coarser
         }
@@ -204,17 +209,23 @@ int32_t remove_intersections(mesh &m, repair_report &r)
     return static_cast<int32_t>(pairs.size());
 }
 
-double deviation(const mesh &before, const mesh &after)
+void measure_deviation(const mesh &before, const mesh &after, repair_report &r)
 {
     using primitive = CGAL::AABB_face_graph_triangle_primitive<mesh>;
-    CGAL::AABB_tree<CGAL::AABB_traits<kernel, primitive>> tree(faces(after).first, faces(after).second, after);
+    CGAL::AABB_tree<CGAL::AABB_traits<kernel, primitive>> tree(faces(after).first, faces(after).second,
+                                                               after);
     tree.accelerate_distance_queries();
-    double largest = 0;
-    for (auto v : before.vertices()) largest = std::max(largest, tree.squared_distance(before.point(v)));
-    return std::sqrt(largest);
+    for (auto v : before.vertices()) {
+        double d = std::sqrt(tree.squared_distance(before.point(v)));
+        r.max_deviation_mm = std::max(r.max_deviation_mm, d);
+        r.vertices_moved += d > moved_mm;
+    }
 }
 
-bool encloses(const mesh &m) { return CGAL::is_closed(m) && PMP::does_bound_a_volume(m); }
+bool encloses(const mesh &m)
+{
+    return CGAL::is_closed(m) && PMP::does_bound_a_volume(m);
+}
 
 mesh wrapped(const surface &in, double alpha_mm, double offset_mm)
 {
@@ -234,13 +245,15 @@ extern "C" repair_params repair_params_default(void)
     return {.min_component_share = 1e-3, .wrap_alpha_mm = 1, .wrap_offset_mm = 0.05};
 }
 
-extern "C" bool repair_solid(const surface *in, const repair_params *p, surface *out, repair_report *report, err *e)
+extern "C" bool repair_solid(const surface *in, const repair_params *p, surface *out, repair_report *report,
+                             err *e)
 {
     return guarded(e, "repair", [&] {
         if (!surface_check(in, e)) return false;
         if (!(p->min_component_share >= 0 && p->min_component_share < 1) || !(p->wrap_alpha_mm > 0) ||
             !(p->wrap_offset_mm > 0))
-            return err_set(e, ERR_INPUT, "repair: component share %g, wrap alpha %g mm, offset %g mm are not usable",
+            return err_set(e, ERR_INPUT,
+                           "repair: component share %g, wrap alpha %g mm, offset %g mm are not usable",
                            p->min_component_share, p->wrap_alpha_mm, p->wrap_offset_mm);
         repair_report r = {};
         mesh m = manifold_mesh(*in, r);
@@ -269,7 +282,7 @@ extern "C" bool repair_solid(const surface *in, const repair_params *p, surface 
             r.wrapped = true;
             if (!encloses(m)) throw refusal(ERR_GEOMETRY, "not even the wrap encloses a volume");
         }
-        r.max_deviation_mm = deviation(kept, m);
+        measure_deviation(kept, m, r);
         if (report) *report = r;
         *out = surface_from_mesh(m);
         return true;
@@ -281,7 +294,8 @@ extern "C" bool repair_wrap(const surface *in, double alpha_mm, double offset_mm
     return guarded(e, "wrap", [&] {
         if (!surface_check(in, e)) return false;
         if (!(alpha_mm > 0) || !(offset_mm > 0))
-            return err_set(e, ERR_INPUT, "wrap: alpha %g mm and offset %g mm must be above 0", alpha_mm, offset_mm);
+            return err_set(e, ERR_INPUT, "wrap: alpha %g mm and offset %g mm must be above 0", alpha_mm,
+                           offset_mm);
         mesh m = wrapped(*in, alpha_mm, offset_mm);
         *out = surface_from_mesh(m);
         return true;

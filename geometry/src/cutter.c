@@ -128,12 +128,13 @@ static void solve3(const double a[9], const double b[3], double x[3])
     }
 }
 
-/* Each vertex goes where its faces, shifted by their own amounts, meet: n . d = amount for all of them, solved by
- * least squares. The small diagonal picks the shortest d where the faces leave a direction open. */
+/* Each vertex goes where its faces, shifted by their own amounts, meet: n . d = amount for all of them,
+ * solved by least squares. The small diagonal picks the shortest d where the faces leave a direction open. */
 surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm)
 {
     surface out = surface_copy(&c->body);
-    double *a = NEW_ARRAY(double, 9 * (size_t)out.vertex_count), *b = NEW_ARRAY(double, 3 * (size_t)out.vertex_count);
+    double *a = NEW_ARRAY(double, 9 * (size_t)out.vertex_count),
+           *b = NEW_ARRAY(double, 3 * (size_t)out.vertex_count);
     for (int32_t t = 0; t < out.triangle_count; t++) {
         const int32_t *v = c->body.tri + 3 * (size_t)t;
         double u[3], w[3], n[3], amount = c->moves[t] ? moving_mm : fixed_mm;
@@ -158,4 +159,7 @@ surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm)
     return out;
 }
 
-surface cutter_sheet(const cutter *c) { return surface_select(&c->body, c->moves); }
+surface cutter_sheet(const cutter *c)
+{
+    return surface_select(&c->body, c->moves);
+}

@@ -10,9 +10,9 @@ typedef struct cutter {
 
 void cutter_free(cutter *c);
 
-/* Polygons of `nodes` corners stacked in `levels` layers, xyz[3*(level*nodes + node)]. Side j runs from node j to
- * j + 1; side_moves[nodes]. The first and last polygon are the caps, triangulated as seen along their mean normal:
- * they must be simple polygons there. */
+/* Polygons of `nodes` corners stacked in `levels` layers, xyz[3*(level*nodes + node)]. Side j runs from node
+ * j to j + 1; side_moves[nodes]. The first and last polygon are the caps, triangulated as seen along their
+ * mean normal: they must be simple polygons there. */
 cutter cutter_stack(int levels, int nodes, const double *xyz, const uint8_t *side_moves, bool first_cap_moves,
                     bool last_cap_moves);
 /* A box in the axes of f. */

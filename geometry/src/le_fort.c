@@ -1,19 +1,19 @@
-/* Le Fort I: one sheet from the piriform rims over the buttresses to the pterygomaxillary junctions, then down
- * between tuberosity and pterygoid plates. Built in the Frankfort frame as sagittal profiles stacked from right to
- * left. Each of the levels PR, ZB and PM is a straight line through its left and right landmark, so that septum and
- * lateral nasal walls are cut by the same sheet. */
+/* Le Fort I: one sheet from the piriform rims over the buttresses to the pterygomaxillary junctions, then
+ * down between tuberosity and pterygoid plates. Built in the Frankfort frame as sagittal profiles stacked
+ * from right to left. Each of the levels PR, ZB and PM is a straight line through its left and right
+ * landmark, so that septum and lateral nasal walls are cut by the same sheet. */
 #include "geometry/mem.h"
 #include "geometry/src/cut_plan.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 
-enum { COLUMNS = 10, PROFILE = 6 };     /* profile: front, PR, ZB, PM, foot behind, foot in front */
-static const double front_mm = 25;      /* the sheet starts this far before the foremost of U1 and ANS */
+enum { COLUMNS = 10, PROFILE = 6 }; /* profile: front, PR, ZB, PM, foot behind, foot in front */
+static const double front_mm = 25;  /* the sheet starts this far before the foremost of U1 and ANS */
 static const double below_teeth_mm = 15;
-static const double buttress_mm = 2;    /* beyond ZB by this the sheet falls away, to leave the zygoma alone */
-static const double wall_mm = 9;        /* outer wall beyond ZB or the first molar */
+static const double buttress_mm = 2; /* beyond ZB by this the sheet falls away, to leave the zygoma alone */
+static const double wall_mm = 9;     /* outer wall beyond ZB or the first molar */
 static const double palate_half_mm = 12; /* half the width of the choanae */
-static const double spine_mm = 1.5;     /* the separation passes this far behind PNS at the midline */
+static const double spine_mm = 1.5;      /* the separation passes this far behind PNS at the midline */
 static const double raise_step_mm = 0.25;
 
 typedef struct level { /* a line through the left and right landmark, in the Frankfort frame */
@@ -45,11 +45,16 @@ static cutter build(const setting *s)
 {
     double middle = (s->ans[0] + s->pns[0]) / 2, xyz[3 * COLUMNS * PROFILE];
     double edge_r = s->zb.right[0] - buttress_mm, edge_l = s->zb.left[0] + buttress_mm;
-    double x[COLUMNS] = {fmin(s->zb.right[0], s->pm.right[0]) - wall_mm, edge_r,
-                         s->zb.right[0] + 2,                             s->pm.right[0],
-                         middle - palate_half_mm,                        middle + palate_half_mm,
-                         s->pm.left[0],                                  s->zb.left[0] - 2,
-                         edge_l,                                         fmax(s->zb.left[0], s->pm.left[0]) + wall_mm};
+    double x[COLUMNS] = {fmin(s->zb.right[0], s->pm.right[0]) - wall_mm,
+                         edge_r,
+                         s->zb.right[0] + 2,
+                         s->pm.right[0],
+                         middle - palate_half_mm,
+                         middle + palate_half_mm,
+                         s->pm.left[0],
+                         s->zb.left[0] - 2,
+                         edge_l,
+                         fmax(s->zb.left[0], s->pm.left[0]) + wall_mm};
     double foot = fmin(s->u1[2], s->u6_low) - below_teeth_mm, start = fmin(s->u1[1], s->ans[1]) - front_mm;
     for (int c = 0; c < COLUMNS; c++) {
         double y[3], z[3];
@@ -65,8 +70,8 @@ static cutter build(const setting *s)
             if (c == 0 || c == COLUMNS - 1) z[k] -= wall_mm - buttress_mm;
         }
         double lead = z[0] + (z[0] - z[1]) / (y[1] - y[0]) * (y[0] - start);
-        double profile[PROFILE][2] = {{start, lead}, {y[0], z[0]}, {y[1], z[1]}, {y[2], z[2]}, {y[2], foot},
-                                      {start, foot}};
+        double profile[PROFILE][2] = {{start, lead}, {y[0], z[0]}, {y[1], z[1]},
+                                      {y[2], z[2]},  {y[2], foot}, {start, foot}};
         for (int j = 0; j < PROFILE; j++) {
             double local[3] = {x[c], profile[j][0], profile[j][1]};
             head_frame_to_world(&s->frame, local, xyz + 3 * (c * PROFILE + j));
@@ -95,8 +100,8 @@ static bool measure(const cutter *c, const probe *p, double *mm, err *e)
     return ok;
 }
 
-/* Root tips from cusps: molars stand along the normal of the upper occlusal plane, the canine halfway between it and
- * the axis of the incisor. */
+/* Root tips from cusps: molars stand along the normal of the upper occlusal plane, the canine halfway between
+ * it and the axis of the incisor. */
 static int probes(const osteotomy_input *in, const setting *s, probe out[16], cut_report *r)
 {
     const landmarks *l = in->points;
@@ -109,23 +114,29 @@ static int probes(const osteotomy_input *in, const setting *s, probe out[16], cu
     for (int c = 0; c < 3; c++) back[c] = (left[c] + right[c]) / 2 - u1[c];
     vec_cross(across, back, normal);
     vec_normalize(normal);
-    if (apex) vec_sub(apex->xyz, u1, incisor);
+    if (apex)
+        vec_sub(apex->xyz, u1, incisor);
     else { /* 111 degrees to the Frankfort plane */
         for (int c = 0; c < 3; c++) incisor[c] = 0.934 * s->frame.up[c] + 0.358 * s->frame.posterior[c];
-        report_warning(r, "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
+        report_warning(r,
+                       "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
                        UPPER_1_MM);
     }
     vec_normalize(incisor);
     vec_add(incisor, normal, canine);
     vec_normalize(canine);
     out[count] = (probe){.name = "upper incisor apex", .below = true, .estimated = true, .decides = true};
-    if (apex) vec_copy(apex->xyz, out[count++].at);
-    else vec_axpy(u1, UPPER_1_MM, incisor, out[count++].at);
+    if (apex)
+        vec_copy(apex->xyz, out[count++].at);
+    else
+        vec_axpy(u1, UPPER_1_MM, incisor, out[count++].at);
     for (int side = 1; side >= -1; side -= 2) {
         const char *word = side > 0 ? "left" : "right";
         char label[LANDMARK_LABEL_SIZE];
-        static const struct { const char *cusp, *apex, *name; double mm; } teeth[] = {
-            {"U3", "U3_apex", "canine", UPPER_3_MM}, {"U6", "U6_apex", "first molar", UPPER_6_MM}};
+        static const struct {
+            const char *cusp, *apex, *name;
+            double mm;
+        } teeth[] = {{"U3", "U3_apex", "canine", UPPER_3_MM}, {"U6", "U6_apex", "first molar", UPPER_6_MM}};
         for (int k = 0; k < 2; k++) {
             const landmark *cusp = landmarks_find(l, side_label(label, teeth[k].cusp, side)),
                            *tip = landmarks_find(l, side_label(label, teeth[k].apex, side));
@@ -136,8 +147,10 @@ static int probes(const osteotomy_input *in, const setting *s, probe out[16], cu
             probe *p = out + count++;
             *p = (probe){.below = true, .estimated = !tip, .decides = true};
             snprintf(p->name, sizeof p->name, "upper %s apex %s", teeth[k].name, word);
-            if (tip) vec_copy(tip->xyz, p->at);
-            else vec_axpy(cusp->xyz, teeth[k].mm, k == 0 ? canine : normal, p->at);
+            if (tip)
+                vec_copy(tip->xyz, p->at);
+            else
+                vec_axpy(cusp->xyz, teeth[k].mm, k == 0 ? canine : normal, p->at);
         }
         probe *p = out + count++; /* the second molar follows the first along the arch */
         *p = (probe){.below = true, .estimated = true};
@@ -194,9 +207,10 @@ static void describe(const setting *s, cut_report *r)
     }
 }
 
-bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e)
+bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r,
+                    err *e)
 {
-    static const char *const needed[] = {"PR_L", "PR_R", "ZB_L", "ZB_R", "PM_L", "PM_R", "ANS",  "PNS",
+    static const char *const needed[] = {"PR_L", "PR_R", "ZB_L", "ZB_R", "PM_L", "PM_R", "ANS", "PNS",
                                          "U1",   "U6_L", "U6_R", "Po_L", "Po_R", "Or_L", NULL};
     setting s = {.palate_mm = p->palate_clearance_mm};
     if (!need_landmarks(in->points, "Le Fort I", needed, e)) return false;
@@ -209,7 +223,8 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
         landmark_local(in->points, side_label(label, names[k], 1), &s.frame, levels[k]->left);
         landmark_local(in->points, side_label(label, names[k], -1), &s.frame, levels[k]->right);
         if (!(levels[k]->left[0] - levels[k]->right[0] > 10))
-            return err_set(e, ERR_INPUT, "%s_L and %s_R are not left and right of each other", names[k], names[k]);
+            return err_set(e, ERR_INPUT, "%s_L and %s_R are not left and right of each other", names[k],
+                           names[k]);
     }
     for (int k = 0; k < 2; k++) {
         double local[3];
@@ -222,7 +237,8 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
     s.u6_low = fmin(u6[0], u6[1]);
     if (!(s.pr.left[1] < s.zb.left[1] && s.zb.left[1] < s.pm.left[1] && s.pr.right[1] < s.zb.right[1] &&
           s.zb.right[1] < s.pm.right[1] && s.ans[1] < s.pns[1]))
-        return err_set(e, ERR_INPUT, "Le Fort I: PR, ZB, PM (and ANS, PNS) must follow each other from front to back");
+        return err_set(e, ERR_INPUT,
+                       "Le Fort I: PR, ZB, PM (and ANS, PNS) must follow each other from front to back");
     probe list[16];
     double mm[16];
     int count = probes(in, &s, list, r);
@@ -243,12 +259,13 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
         s.raise_mm += raise_step_mm;
     }
     if (s.raise_mm > 0)
-        report_warning(r, "Le Fort I raised by %.2f mm above PR, ZB and PM to clear the estimated root tips", s.raise_mm);
+        report_warning(r, "Le Fort I raised by %.2f mm above PR, ZB and PM to clear the estimated root tips",
+                       s.raise_mm);
     for (int i = 0; i < count; i++)
         report_clearance(r, list[i].name, mm[i],
-                         !list[i].below                  ? p->foramen_clearance_mm
-                         : i == count - 1                ? 1
-                                                         : p->apex_clearance_mm,
+                         !list[i].below   ? p->foramen_clearance_mm
+                         : i == count - 1 ? 1
+                                          : p->apex_clearance_mm,
                          list[i].estimated);
     describe(&s, r);
     *out = cut_bodies_from(&c, p->kerf_mm);

@@ -115,11 +115,14 @@ static void refuses_what_is_not_sound_and_says_which(void **state)
             crossed = body_with(body_box(10, 0, 0, 14, 4, 4), body_box(12, 1, 1, 16, 3, 3));
     open.triangle_count--;
     surface_flip(&turned);
-    const struct { const surface *s; const char *text; } bad[] = {
-        {&open, "is not closed"}, {&turned, "is inside out"}, {&crossed, "intersects itself"}};
+    const struct {
+        const surface *s;
+        const char *text;
+    } bad[] = {{&open, "is not closed"}, {&turned, "is inside out"}, {&crossed, "intersects itself"}};
     for (int i = 0; i < 3; i++)
         for (int second = 0; second < 2; second++) {
-            assert_false(boolean_apply(second ? &good : bad[i].s, second ? bad[i].s : &good, BOOLEAN_UNION, &out, NULL, &e));
+            assert_false(boolean_apply(second ? &good : bad[i].s, second ? bad[i].s : &good, BOOLEAN_UNION,
+                                       &out, NULL, &e));
             assert_int_equal(e.code, ERR_GEOMETRY);
             assert_non_null(strstr(e.text, second ? "second body" : "first body"));
             assert_non_null(strstr(e.text, bad[i].text));

@@ -131,12 +131,11 @@ static void set(landmarks *l, const char *label, double x, double y, double z)
 static model box_mandible(void)
 {
     err e = {0};
-    surface part[9] = {
-        body_box(-32, -80, -15, 32, -66, 15),           body_box(21, -79.5, -14.5, 34, -15, 14.5),
-        body_box(24, -30, -14.8, 34.5, 10, 45),         body_box(-34, -79.5, -14.5, -21, -15, 14.5),
-        body_box(-34.5, -30, -14.8, -24, 10, 45),       body_box(20, -6, 43, 38, 9, 55),
-        body_box(-38, -6, 43, -20, 9, 55),              body_box(25, -29, 44, 33, -20, 56),
-        body_box(-33, -29, 44, -25, -20, 56)};
+    surface part[9] = {body_box(-32, -80, -15, 32, -66, 15),     body_box(21, -79.5, -14.5, 34, -15, 14.5),
+                       body_box(24, -30, -14.8, 34.5, 10, 45),   body_box(-34, -79.5, -14.5, -21, -15, 14.5),
+                       body_box(-34.5, -30, -14.8, -24, 10, 45), body_box(20, -6, 43, 38, 9, 55),
+                       body_box(-38, -6, 43, -20, 9, 55),        body_box(25, -29, 44, 33, -20, 56),
+                       body_box(-33, -29, 44, -25, -20, 56)};
     model m = {0};
     bool ok = boolean_unite(part, 9, &m.mandible, &e);
     assert_true(ok);
@@ -147,10 +146,12 @@ static model box_mandible(void)
     set(&m.points, "Pog", 0, -80, -9);
     set(&m.points, "B", 0, -80, 5);
     for (int side = -1; side <= 1; side += 2) {
-        const struct { const char *base; double x, y, z; } p[] = {
-            {"L3", 14, -78, 15}, {"L3_apex", 14, -74, 0}, {"L6", 28, -58, 14.5}, {"L7", 28, -41, 14.5}, {"Go", 30, 10, -14.8}, {"SN", 30, -13, 45},
-            {"RA", 30, -30, 16}, {"RP", 30, 10, 16},    {"Co", 29, 2, 55},     {"Cor", 29, -24, 56},  {"Li", 24, -8, 25},
-            {"MF", 34, -66, 0}};
+        const struct {
+            const char *base;
+            double x, y, z;
+        } p[] = {{"L3", 14, -78, 15},   {"L3_apex", 14, -74, 0}, {"L6", 28, -58, 14.5}, {"L7", 28, -41, 14.5},
+                 {"Go", 30, 10, -14.8}, {"SN", 30, -13, 45},     {"RA", 30, -30, 16},   {"RP", 30, 10, 16},
+                 {"Co", 29, 2, 55},     {"Cor", 29, -24, 56},    {"Li", 24, -8, 25},    {"MF", 34, -66, 0}};
         for (size_t k = 0; k < sizeof p / sizeof *p; k++) {
             char label[LANDMARK_LABEL_SIZE];
             snprintf(label, sizeof label, "%s_%c", p[k].base, side > 0 ? 'L' : 'R');
@@ -187,8 +188,10 @@ static void the_sagittal_split_parts_condyle_from_teeth(void **state)
     cut_report r;
     assert_ok(osteotomy_cut(&in, &p, &s, &r, &e));
     check_closed(&s);
-    static const char *const proximal[] = {"Co_L", "Cor_L", "Go_L", "RP_L"}, *const distal[] = {"L1", "L3_L", "L6_L", "L7_L",
-        "Li_L", "Li_R", "MF_L", "Me"};
+    static const char *const proximal[] = {"Co_L", "Cor_L", "Go_L", "RP_L"}, *const distal[] = {
+                                                                                 "L1",   "L3_L", "L6_L",
+                                                                                 "L7_L", "Li_L", "Li_R",
+                                                                                 "MF_L", "Me"};
     for (int i = 0; i < 4; i++) assert_true(holds(&s.part[SEGMENT_PROXIMAL_LEFT], &m.points, proximal[i]));
     for (int i = 0; i < 8; i++) assert_true(holds(&s.part[SEGMENT_DISTAL], &m.points, distal[i]));
     for (int i = SEGMENT_DISTAL; i <= SEGMENT_PROXIMAL_RIGHT; i++) {
@@ -196,8 +199,8 @@ static void the_sagittal_split_parts_condyle_from_teeth(void **state)
         assert_int_equal(surface_components(&s.part[i], &number), 1);
         free(number);
     }
-    double left = surface_volume(&s.part[SEGMENT_PROXIMAL_LEFT]), right = surface_volume(&s.part[SEGMENT_PROXIMAL_RIGHT]),
-           whole = surface_volume(&m.mandible);
+    double left = surface_volume(&s.part[SEGMENT_PROXIMAL_LEFT]),
+           right = surface_volume(&s.part[SEGMENT_PROXIMAL_RIGHT]), whole = surface_volume(&m.mandible);
     assert_near(left, right, 1e-3 * left);
     assert_near(balance(&s), whole, 1e-6 * whole);
     /* Lateral plate: a point just inside the outer surface beside the canal, in front of the lingula. */
@@ -220,14 +223,16 @@ static void the_split_follows_an_opened_mandible(void **state)
     (void)state;
     err e = {0};
     model m = box_mandible();
-    osteotomy_input in = {.mandible = &m.mandible, .points = &m.points, .kinds = OSTEOTOMY_BSSO | OSTEOTOMY_GENIOPLASTY};
+    osteotomy_input in = {
+        .mandible = &m.mandible, .points = &m.points, .kinds = OSTEOTOMY_BSSO | OSTEOTOMY_GENIOPLASTY};
     osteotomy_params p = osteotomy_params_default();
     segments closed, open;
     assert_ok(osteotomy_cut(&in, &p, &closed, NULL, &e));
     const double pivot[3] = {0, 2, 52}, axis[3] = {1, 0, 0};
     rigid turn = rigid_rotation(pivot, axis, 0.5);
     surface_transform(&m.mandible, &turn);
-    for (int32_t i = 0; i < m.points.count; i++) rigid_apply(&turn, m.points.point[i].xyz, m.points.point[i].xyz);
+    for (int32_t i = 0; i < m.points.count; i++)
+        rigid_apply(&turn, m.points.point[i].xyz, m.points.point[i].xyz);
     assert_ok(osteotomy_cut(&in, &p, &open, NULL, &e));
     for (int i = SEGMENT_DISTAL; i < SEGMENT_COUNT; i++)
         assert_near(surface_volume(&open.part[i]), surface_volume(&closed.part[i]),
@@ -268,9 +273,10 @@ static void refusals_say_what_is_wrong(void **state)
     osteotomy_input in = {.skull = &box, .points = &none};
     segments s;
     cut_plane bad[] = {plane("maxilla", 100, 0, 0, 1, 0, 0), plane("nose", 10, 0, 0, 1, 0, 0),
-                       plane("distal", 10, 0, 0, 1, 0, 0), plane("maxilla", 10, 0, 0, 2, 0, 0), plane("chin", 1, 0, 0, 1, 0, 0)};
-    static const char *const text[] = {"misses the bone", "must name the segment", "name the piece", "not a unit vector",
-                                       "the case has none"};
+                       plane("distal", 10, 0, 0, 1, 0, 0), plane("maxilla", 10, 0, 0, 2, 0, 0),
+                       plane("chin", 1, 0, 0, 1, 0, 0)};
+    static const char *const text[] = {"misses the bone", "must name the segment", "name the piece",
+                                       "not a unit vector", "the case has none"};
     for (int i = 0; i < 5; i++) {
         in.plane = bad + i;
         in.plane_count = 1;
@@ -328,7 +334,9 @@ static void scanned_jaws_are_cut(void **state)
             assert_ok(repair_solid(raw + k, &rp, solid + k, NULL, &e));
             surface_free(raw + k);
         }
-        osteotomy_input in = {.skull = solid, .mandible = solid + 1, .points = &points,
+        osteotomy_input in = {.skull = solid,
+                              .mandible = solid + 1,
+                              .points = &points,
                               .kinds = OSTEOTOMY_LE_FORT_1 | OSTEOTOMY_BSSO | OSTEOTOMY_GENIOPLASTY};
         osteotomy_params p = osteotomy_params_default();
         segments s;

@@ -156,13 +156,15 @@ static void scanned_bones_come_out_solid(void **state)
 {
     (void)state;
     static const char *const files[] = {"phantom_head_ct/mandible.ply", "vtk_fullhead_ct/mandible.ply",
-                                        "vtk_fullhead_ct/teeth_upper.ply", "bodyparts3d_skull/bone/right_temporal_bone.ply"};
+                                        "vtk_fullhead_ct/teeth_upper.ply",
+                                        "bodyparts3d_skull/bone/right_temporal_bone.ply"};
     for (int i = 0; i < 4; i++) {
         char path[512];
         err e = {0};
         surface s;
         repair_report r;
-        snprintf(path, sizeof path, "%s/%s", getenv("GNATHOS_DATA") ? getenv("GNATHOS_DATA") : "../shared/data", files[i]);
+        snprintf(path, sizeof path, "%s/%s",
+                 getenv("GNATHOS_DATA") ? getenv("GNATHOS_DATA") : "../shared/data", files[i]);
         FILE *there = fopen(path, "rb");
         if (!there) {
             print_message("skipped: %s is not there\n", path);
