@@ -1,5 +1,6 @@
-/* bodies: the parts of the mean head as signed distances (mm), in the Frankfort frame of the template: origin between
- * the porions, +x left, +y posterior, +z up. Symmetric in x. Built once, then queried from any thread. */
+/* bodies: the parts of the mean head as signed distances (mm), in the Frankfort frame of the template: origin
+ * between the porions, +x left, +y posterior, +z up. Symmetric in x. Built once, then queried from any
+ * thread. */
 #pragma once
 #include "radial.h"
 #include "tube.h"
@@ -17,8 +18,8 @@ bodies bodies_build(void);
 void bodies_free(bodies *b);
 
 double body_skin(const bodies *b, const double p[3]);
-bool body_skin_fold(const double p[3]); /* in the groove between the lips or in a nostril */
-double skin_lid_line(double x); /* height of the line between the lids */
+bool body_skin_fold(const double p[3]);                   /* in the groove between the lips or in a nostril */
+double skin_lid_line(double x);                           /* height of the line between the lids */
 double body_skull(const bodies *b, const double p[3]);    /* no teeth, no mandible */
 double body_mandible(const bodies *b, const double p[3]); /* no teeth */
 

@@ -46,7 +46,8 @@ static void sample_rows(int64_t begin, int64_t end, void *context)
     for (int64_t row = begin; row < end; row++)
         for (int i = 0; i < s->count[0]; i++) {
             int64_t j = row % s->count[1], k = row / s->count[1];
-            double p[3] = {s->low[0] + step_mm * i, s->low[1] + step_mm * (double)j, s->low[2] + step_mm * (double)k};
+            double p[3] = {s->low[0] + step_mm * i, s->low[1] + step_mm * (double)j,
+                           s->low[2] + step_mm * (double)k};
             s->value[row * s->count[0] + i] = (float)body_distance(s->b, s->id, p);
         }
 }
@@ -68,7 +69,8 @@ static int label(const double p[3], void *context)
 /* Fine where the face moves and where small things are, coarse at the back. */
 static double skin_size(const double p[3])
 {
-    double mouth = sdf_ellipsoid(p, 0, -92, -48, 30, 16, 14), nose = sdf_ellipsoid(p, 0, -104, -20, 20, 16, 16);
+    double mouth = sdf_ellipsoid(p, 0, -92, -48, 30, 16, 14),
+           nose = sdf_ellipsoid(p, 0, -104, -20, 20, 16, 16);
     double eyes = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 31, -84, 14, 20, 12, 13);
     double ears = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 76, 8, 2, 10, 22, 36);
     double brows = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 30, -88, 35, 22, 10, 6);

@@ -3,24 +3,39 @@
 #include <stdbool.h>
 #include "teeth.h"
 
-/* Braincase: the skin over it less the thickness of the scalp; at the temples less that of the temporal muscle. */
+/* Braincase: the skin over it less the thickness of the scalp; at the temples less that of the temporal
+ * muscle. */
 static const double vault_points[][3] = {
-    {0, -90.5, 38}, {0, -91, 50}, {0, -87.5, 70}, {0, -77, 89}, {0, -57, 103}, {0, -23, 112.5}, {0, 8, 113.5},
-    {0, 40, 106}, {0, 66, 86}, {0, 82, 56}, {0, 85, 28}, {0, 76, 2}, {0, 58, -17}, {0, 34, -25}, {0, 8, -20},
-    {0, -20, -5}, {0, -40, 8}, {0, -62, 20}, {0, -80, 26},
-    {28, -57, 93}, {40, -20, 99}, {43, 15, 99}, {33, 50, 93},
-    {23, -81, 74}, {41, -67, 74}, {54.5, -37, 75}, {61, 0, 75}, {60.5, 30, 74}, {46, 60, 72},
-    {19, -88.5, 51}, {37, -79.5, 51}, {49, -61, 52}, {57, -38, 52}, {65, -5, 52}, {67.5, 25, 50}, {57, 56, 50},
-    {31, 77, 50},
-    {15, -87, 38}, {30, -84, 39}, {43, -74, 38}, {47.5, -62, 37}, {49, -50, 32}, {55, -30, 32}, {62, -5, 34},
-    {66, 20, 32}, {58, 54, 28}, {34, 76, 27},
-    {20, -72, 30}, {36, -64, 30}, {43, -46, 16}, {50, -28, 12}, {57, -5, 14}, {62, 18, 10}, {55, 48, 5}, {31, 68, 3},
-    {25, -38, 2}, {40, -24, -1}, {50, -4, -2}, {54, 16, -9}, {44, 38, -15}, {24, 54, -17}, {22, 10, -19},
-    {25, -12, -8}, {24, 34, -24}};
+    {0, -90.5, 38},  {0, -91, 50},    {0, -87.5, 70}, {0, -77, 89},   {0, -57, 103},   {0, -23, 112.5},
+    {0, 8, 113.5},   {0, 40, 106},    {0, 66, 86},    {0, 82, 56},    {0, 85, 28},     {0, 76, 2},
+    {0, 58, -17},    {0, 34, -25},    {0, 8, -20},    {0, -20, -5},   {0, -40, 8},     {0, -62, 20},
+    {0, -80, 26},    {28, -57, 93},   {40, -20, 99},  {43, 15, 99},   {33, 50, 93},    {23, -81, 74},
+    {41, -67, 74},   {54.5, -37, 75}, {61, 0, 75},    {60.5, 30, 74}, {46, 60, 72},    {19, -88.5, 51},
+    {37, -79.5, 51}, {49, -61, 52},   {57, -38, 52},  {65, -5, 52},   {67.5, 25, 50},  {57, 56, 50},
+    {31, 77, 50},    {15, -87, 38},   {30, -84, 39},  {43, -74, 38},  {47.5, -62, 37}, {49, -50, 32},
+    {55, -30, 32},   {62, -5, 34},    {66, 20, 32},   {58, 54, 28},   {34, 76, 27},    {20, -72, 30},
+    {36, -64, 30},   {43, -46, 16},   {50, -28, 12},  {57, -5, 14},   {62, 18, 10},    {55, 48, 5},
+    {31, 68, 3},     {25, -38, 2},    {40, -24, -1},  {50, -4, -2},   {54, 16, -9},    {44, 38, -15},
+    {24, 54, -17},   {22, 10, -19},   {25, -12, -8},  {24, 34, -24}};
 
 enum { /* tubes of the skull */
-    BROW, GLABELLA, NASAL_SIDE, LATERAL_RIM, LOWER_RIM, ARCH, ARCH_ROOT, MAXILLA_FRONTAL, NASAL, ALVEOLUS, BUTTRESS, PTERYGOID,
-    PTERYGOID_INNER, CLIVUS, SPINE, TEMPORAL_LINE, SKULL_TUBE_COUNT
+       BROW,
+       GLABELLA,
+       NASAL_SIDE,
+       LATERAL_RIM,
+       LOWER_RIM,
+       ARCH,
+       ARCH_ROOT,
+       MAXILLA_FRONTAL,
+       NASAL,
+       ALVEOLUS,
+       BUTTRESS,
+       PTERYGOID,
+       PTERYGOID_INNER,
+       CLIVUS,
+       SPINE,
+       TEMPORAL_LINE,
+       SKULL_TUBE_COUNT
 };
 _Static_assert((int)SKULL_TUBE_COUNT <= (int)SKULL_TUBES, "room in bodies");
 
@@ -34,39 +49,51 @@ radial body_skull_vault(void)
 
 void body_skull_tubes(tube *t)
 {
-    static const double brow[][4] = {{7, -86, 30.5, 4.2}, {16, -85.5, 34, 4}, {28, -83, 36.5, 3.6},
-                                     {39, -77, 35.5, 3.4}, {46.5, -68.5, 30.5, 3.6}};
+    static const double brow[][4] = {{7, -86, 30.5, 4.2},
+                                     {16, -85.5, 34, 4},
+                                     {28, -83, 36.5, 3.6},
+                                     {39, -77, 35.5, 3.4},
+                                     {46.5, -68.5, 30.5, 3.6}};
     t[BROW] = tube_round(brow, COUNT(brow));
     static const double glabella[][4] = {{0, -84, 40, 6}, {0, -82.5, 32, 6}, {0, -81.3, 26, 5.7}};
     t[GLABELLA] = tube_round(glabella, COUNT(glabella));
-    static const double lateral_rim[][4] = {{47.3, -67, 31, 3.4}, {50.3, -64, 22, 3.1}, {50.3, -62, 13, 3.3},
-                                            {48.8, -64, 3, 4.5}, {46, -67, -5, 6}};
+    static const double lateral_rim[][4] = {{47.3, -67, 31, 3.4},
+                                            {50.3, -64, 22, 3.1},
+                                            {50.3, -62, 13, 3.3},
+                                            {48.8, -64, 3, 4.5},
+                                            {46, -67, -5, 6}};
     t[LATERAL_RIM] = tube_flat(lateral_rim, COUNT(lateral_rim), (double[]){-0.35, 1, 0}, 1.5);
-    static const double lower_rim[][4] = {{11, -78, 11, 2.6}, {15.5, -78.2, 4, 3.4}, {23, -77.8, -2.5, 4.4},
-                                          {31, -76.0, -5.0, 5.0}, {39, -72.0, -5, 5.8}, {45, -67.5, -1, 5.2}};
+    static const double lower_rim[][4] = {{11, -78, 11, 2.6},     {15.5, -78.2, 4, 3.4},
+                                          {23, -77.8, -2.5, 4.4}, {31, -76.0, -5.0, 5.0},
+                                          {39, -72.0, -5, 5.8},   {45, -67.5, -1, 5.2}};
     t[LOWER_RIM] = tube_round(lower_rim, COUNT(lower_rim));
-    static const double arch[][4] = {{46, -66, -7, 6.0}, {52, -60, -6.5, 3.6}, {57.5, -49, -4, 2.5},
-                                     {60, -35, -1.5, 2.2}, {60, -22, 0.5, 2.2}, {58.5, -11, 2.5, 2.6},
+    static const double arch[][4] = {{46, -66, -7, 6.0},   {52, -60, -6.5, 3.6}, {57.5, -49, -4, 2.5},
+                                     {60, -35, -1.5, 2.2}, {60, -22, 0.5, 2.2},  {58.5, -11, 2.5, 2.6},
                                      {57, 0, 4, 2.6}};
     t[ARCH] = tube_flat(arch, COUNT(arch), (double[]){0, 0, 1}, 1.9);
     static const double arch_root[][4] = {{58, -20, 0.5, 3}, {51, -21, 0.5, 4}, {43, -20, 1, 4}};
     t[ARCH_ROOT] = tube_round(arch_root, COUNT(arch_root));
-    static const double frontal[][4] = {{6.5, -81, 25, 4}, {8, -82.5, 15, 3.8}, {10.5, -83.0, 5, 4.2},
+    static const double frontal[][4] = {{6.5, -81, 25, 4},      {8, -82.5, 15, 3.8},   {10.5, -83.0, 5, 4.2},
                                         {14.6, -81.0, -7, 4.2}, {16.5, -79, -18, 4.8}, {14, -78.5, -26, 5.4}};
     t[MAXILLA_FRONTAL] = tube_round(frontal, COUNT(frontal));
-    static const double nasal[][4] = {{0, -83.2, 27, 4.2}, {0, -85, 20, 3.8}, {0, -89, 13, 3.6}, {0, -93.5, 7, 3.2}};
+    static const double nasal[][4] = {
+        {0, -83.2, 27, 4.2}, {0, -85, 20, 3.8}, {0, -89, 13, 3.6}, {0, -93.5, 7, 3.2}};
     t[NASAL] = tube_flat(nasal, COUNT(nasal), (double[]){1, 0, 0}, 1.75);
-    static const double side[][4] = {{5.5, -85.5, 20, 2.4}, {6.3, -88.3, 13, 2.2}, {7.8, -90, 6, 2.0},
-                                     {10.8, -87.5, -2, 2.2}, {13.2, -84.5, -10, 2.4}};
+    static const double side[][4] = {{5.5, -85.5, 20, 2.4},
+                                     {6.3, -88.3, 13, 2.2},
+                                     {7.8, -90, 6, 2.0},
+                                     {10.8, -87.5, -2, 2.2},
+                                     {13.2, -84.5, -10, 2.4}};
     t[NASAL_SIDE] = tube_flat(side, COUNT(side), (double[]){0.35, 1, 0}, 1.6);
-    static const double alveolus[][4] = {{0, -82.2, -34, 4.9}, {5, -81.8, -34, 4.9}, {11, -79.3, -34, 5.0},
-                                         {16, -75, -34, 5.0}, {19, -69, -33.5, 5.1}, {21.5, -60, -33, 5.6},
-                                         {23.5, -50, -32, 5.8}, {24.3, -42.5, -30.5, 5.2}};
+    static const double alveolus[][4] = {
+        {0, -82.2, -34, 4.9},  {5, -81.8, -34, 4.9},  {11, -79.3, -34, 5.0}, {16, -75, -34, 5.0},
+        {19, -69, -33.5, 5.1}, {21.5, -60, -33, 5.6}, {23.5, -50, -32, 5.8}, {24.3, -42.5, -30.5, 5.2}};
     t[ALVEOLUS] = tube_flat(alveolus, COUNT(alveolus), (double[]){0, 0.06, 1}, 1.95);
-    static const double buttress[][4] = {{44, -64.5, -8, 7.4}, {38, -64.5, -17, 6.5}, {31, -62.5, -24, 6},
-                                         {27, -60, -30, 5}};
+    static const double buttress[][4] = {
+        {44, -64.5, -8, 7.4}, {38, -64.5, -17, 6.5}, {31, -62.5, -24, 6}, {27, -60, -30, 5}};
     t[BUTTRESS] = tube_round(buttress, COUNT(buttress));
-    static const double pterygoid[][4] = {{19, -30, 2, 3.4}, {20, -34, -12, 2.6}, {22.5, -34.5, -24, 2.4}, {23, -34.5, -30, 2}};
+    static const double pterygoid[][4] = {
+        {19, -30, 2, 3.4}, {20, -34, -12, 2.6}, {22.5, -34.5, -24, 2.4}, {23, -34.5, -30, 2}};
     t[PTERYGOID] = tube_flat(pterygoid, COUNT(pterygoid), (double[]){0.25, 1, 0}, 2.4);
     static const double inner[][4] = {{14, -32, 2, 3}, {14.5, -35, -16, 2.2}, {14.5, -35.5, -29, 1.8}};
     t[PTERYGOID_INNER] = tube_flat(inner, COUNT(inner), (double[]){0, 1, 0}, 2);
@@ -74,7 +101,8 @@ void body_skull_tubes(tube *t)
     t[CLIVUS] = tube_flat(clivus, COUNT(clivus), (double[]){1, 0, 0}, 1.5);
     static const double spine[][4] = {{0, -78, -26, 5}, {0, -84, -25.5, 3}, {0, -88.8, -24, 1.2}};
     t[SPINE] = tube_round(spine, COUNT(spine));
-    static const double temporal[][4] = {{47.5, -68, 31, 3}, {45.5, -65, 41, 3}, {46.5, -56, 54, 2.6}, {50, -40, 64, 2.0}, {54, -22, 69, 1}};
+    static const double temporal[][4] = {
+        {47.5, -68, 31, 3}, {45.5, -65, 41, 3}, {46.5, -56, 54, 2.6}, {50, -40, 64, 2.0}, {54, -22, 69, 1}};
     t[TEMPORAL_LINE] = tube_round(temporal, COUNT(temporal));
 }
 
@@ -102,14 +130,15 @@ static double orbit(const double p[3], double grow)
 
 static double nasal_cavity(const double p[3])
 {
-    static const double pear[][2] = {{0, 5}, {3, 4}, {6.5, -1}, {9, -8}, {11, -14.5}, {11.3, -19}, {8.5, -22},
-                                     {2, -22.8}, {-2, -22.8}, {-8.5, -22}, {-11.3, -19}, {-11, -14.5}, {-9, -8},
-                                     {-6.5, -1}, {-3, 4}};
+    static const double pear[][2] = {{0, 5},       {3, 4},       {6.5, -1},  {9, -8},     {11, -14.5},
+                                     {11.3, -19},  {8.5, -22},   {2, -22.8}, {-2, -22.8}, {-8.5, -22},
+                                     {-11.3, -19}, {-11, -14.5}, {-9, -8},   {-6.5, -1},  {-3, 4}};
     double d = sdf_polygon(p[0], p[2], pear, COUNT(pear)) - 0.8;
     d = sdf_meet(d, p[1] + 34, 4);
     /* septum and lower turbinates stay */
     static const double septum[][2] = {{-84, -30}, {-80, -14}, {-83, 2}, {-88, 14}, {-30, 14}, {-36, -30}};
-    double bone = fmax(fabs(p[0] + 0.6 * sin(p[2] * 0.12)) - 0.9, sdf_polygon(p[1], p[2], septum, COUNT(septum)));
+    double bone =
+        fmax(fabs(p[0] + 0.6 * sin(p[2] * 0.12)) - 0.9, sdf_polygon(p[1], p[2], septum, COUNT(septum)));
     bone = fmin(bone, sdf_ellipsoid(p, 10, -62, -13, 3.4, 15, 3.6));
     return sdf_cut(d, bone, 1.2);
 }
@@ -173,14 +202,14 @@ double body_skull(const bodies *b, const double point[3])
         d = sdf_union(d, sdf_ellipsoid(p, 46, -2, 2, 12, 13, 8), 5);
         static const double styloid_a[3] = {46, -1, -10}, styloid_b[3] = {42, -8, -34};
         d = sdf_union(d, sdf_cone(p, styloid_a, 2.6, styloid_b, 0.9), 3);
-        d = sdf_cut(d, sdf_ellipsoid(p, 50, -11.5, -4.5, 11.5, 7.8, 7), 3);  /* jaw joint */
-        d = sdf_cut(d, sdf_ellipsoid(p, 62, -1, -3.6, 8, 3.2, 3.6), 2);      /* ear canal: its roof is porion */
-        d = sdf_cut(d, sdf_ellipsoid(p, 0, 16, -27, 13.5, 17, 14), 4);       /* foramen magnum */
+        d = sdf_cut(d, sdf_ellipsoid(p, 50, -11.5, -4.5, 11.5, 7.8, 7), 3); /* jaw joint */
+        d = sdf_cut(d, sdf_ellipsoid(p, 62, -1, -3.6, 8, 3.2, 3.6), 2); /* ear canal: its roof is porion */
+        d = sdf_cut(d, sdf_ellipsoid(p, 0, 16, -27, 13.5, 17, 14), 4);  /* foramen magnum */
     }
     if (face) {
         d = sdf_cut(d, orbit(p, 0), 2.5);
         d = sdf_cut(d, nasal_cavity(p), 1.6);
-        d = sdf_cut(d, sdf_ellipsoid(p, 28, -85, -16, 8, 9, 8), 9);  /* canine fossa */
+        d = sdf_cut(d, sdf_ellipsoid(p, 28, -85, -16, 8, 9, 8), 9);        /* canine fossa */
         d = sdf_cut(d, sdf_ellipsoid(p, 26, -82, -8.3, 2.2, 5, 1.7), 1.5); /* infraorbital foramen */
         d = tube_union(d, &t[SPINE], p, 2);
     }

@@ -24,7 +24,7 @@ typedef struct clear_job {
     const nearest *bones;
     const surface *skin;
     const double *normal; /* smoothed, outwards */
-    double *gap; /* distance of each skin vertex from bone, negative inside it */
+    double *gap;          /* distance of each skin vertex from bone, negative inside it */
 } clear_job;
 
 static void measure(int64_t begin, int64_t end, void *context)
@@ -43,7 +43,7 @@ static void measure(int64_t begin, int64_t end, void *context)
 /* Averages over the neighbours, `rounds` times, of `width` numbers per vertex. */
 static void spread(const surface *s, double *field, int width, int rounds)
 {
-    double *sum = NEW_ARRAY(double, width *s->vertex_count), *weight = NEW_ARRAY(double, s->vertex_count);
+    double *sum = NEW_ARRAY(double, width * s->vertex_count), *weight = NEW_ARRAY(double, s->vertex_count);
     for (int r = 0; r < rounds; r++) {
         for (int i = 0; i < s->vertex_count; i++) weight[i] = 1;
         for (int i = 0; i < width * s->vertex_count; i++) sum[i] = field[i];
@@ -77,17 +77,21 @@ static double *outward(const surface *s)
 static void push(surface *skin, const double *lack, const double *normal)
 {
     double *move = COPY_ARRAY(double, lack, skin->vertex_count);
+    /* averaging reaches further on coarse meshes: fewer rounds there */
+    double edge = sqrt(2.3 * surface_area(skin) / skin->triangle_count);
+    int rounds = (int)fmax(1, 3 * (2.5 / edge) * (2.5 / edge) + 0.5);
     for (int round = 0; round < 4; round++) {
-        spread(skin, move, 1, 3);
+        spread(skin, move, 1, rounds);
         for (int i = 0; i < skin->vertex_count; i++) move[i] = fmax(move[i], lack[i]);
     }
     spread(skin, move, 1, 2);
-    for (int i = 0; i < skin->vertex_count; i++) vec_axpy(skin->xyz + 3 * i, move[i], normal + 3 * i, skin->xyz + 3 * i);
+    for (int i = 0; i < skin->vertex_count; i++)
+        vec_axpy(skin->xyz + 3 * i, move[i], normal + 3 * i, skin->xyz + 3 * i);
     free(move);
 }
 
-bool fit_clear(surface *skin, const bool *exempt, const surface *const *bones, int bone_count, double least_mm,
-               double *left_mm, err *e)
+bool fit_clear(surface *skin, const bool *exempt, const surface *const *bones, int bone_count,
+               double least_mm, double *left_mm, err *e)
 {
     surface all = {0};
     for (int i = 0; i < bone_count; i++) {

@@ -45,10 +45,12 @@ static bool read_member(const json_file *f, const char *key, json_t *value, norm
     snprintf(pointer, sizeof pointer, "/%s", key);
     int64_t whole = 0;
     if (!strcmp(key, "gnathos"))
-        return json_integer_value(value) == 1 || json_file_refuse(f, pointer, e, "must be 1, the version of the format");
+        return json_integer_value(value) == 1 ||
+               json_file_refuse(f, pointer, e, "must be 1, the version of the format");
     if (!strcmp(key, "sex")) {
         const char *word = json_string_value(value);
-        if (!word || (strcmp(word, "f") && strcmp(word, "m"))) return json_file_refuse(f, pointer, e, "must be \"f\" or \"m\"");
+        if (!word || (strcmp(word, "f") && strcmp(word, "m")))
+            return json_file_refuse(f, pointer, e, "must be \"f\" or \"m\"");
         p->sex = word[0] == 'm' ? NORM_MALE : NORM_FEMALE;
         return true;
     }
@@ -99,9 +101,10 @@ bool norm_case_read_recipe(const char *path, norm_head_params *out, err *e)
 
 static json_t *recipe(const norm_head_params *p)
 {
-    json_t *o = json_pack("{s:i, s:s, s:i, s:I, s:f, s:f, s:f}", "gnathos", 1, "sex", p->sex == NORM_MALE ? "m" : "f",
-                          "class", p->skeletal_class, "seed", (json_int_t)p->seed, "open_bite_mm", p->open_bite_mm,
-                          "asymmetry_mm", p->asymmetry_mm, "coarseness", p->coarseness);
+    json_t *o =
+        json_pack("{s:i, s:s, s:i, s:I, s:f, s:f, s:f}", "gnathos", 1, "sex", p->sex == NORM_MALE ? "m" : "f",
+                  "class", p->skeletal_class, "seed", (json_int_t)p->seed, "open_bite_mm", p->open_bite_mm,
+                  "asymmetry_mm", p->asymmetry_mm, "coarseness", p->coarseness);
     json_t *set = json_object();
     for (int i = 0; i < MEASURE_COUNT; i++)
         if (p->is_set[i]) json_object_set_new(set, measures[i].name, json_real(p->set[i]));
@@ -111,10 +114,11 @@ static json_t *recipe(const norm_head_params *p)
 
 static json_t *description(const char *name)
 {
-    return json_pack("{s:i, s:s, s:s, s:s, s:{s:s, s:s, s:s, s:s, s:s}, s:s, s:[s,s,s]}", "gnathos", 1, "name", name,
-                     "units", "mm", "frame", "LPS", "surfaces", "skin", "skin.ply", "skull", "skull.ply", "mandible",
-                     "mandible.ply", "upper_teeth", "upper_teeth.ply", "lower_teeth", "lower_teeth.ply", "landmarks",
-                     "landmarks.mrk.json", "osteotomies", "le_fort_1", "bsso", "genioplasty");
+    return json_pack("{s:i, s:s, s:s, s:s, s:{s:s, s:s, s:s, s:s, s:s}, s:s, s:[s,s,s]}", "gnathos", 1,
+                     "name", name, "units", "mm", "frame", "LPS", "surfaces", "skin", "skin.ply", "skull",
+                     "skull.ply", "mandible", "mandible.ply", "upper_teeth", "upper_teeth.ply", "lower_teeth",
+                     "lower_teeth.ply", "landmarks", "landmarks.mrk.json", "osteotomies", "le_fort_1", "bsso",
+                     "genioplasty");
 }
 
 static char *in_folder(const char *folder, const char *file)
@@ -143,14 +147,16 @@ static bool write_measures(const norm_head *h, const char *folder, err *e)
     if (!ok) return false;
     fprintf(w.stream, "measure,asked,obtained,source,meaning\n");
     for (int i = 0; i < MEASURE_COUNT; i++)
-        fprintf(w.stream, "%s,%.3f,%.3f,%s,\"%s\"\n", measures[i].name, h->asked[i], h->obtained[i], measures[i].source,
-                measures[i].help);
+        fprintf(w.stream, "%s,%.3f,%.3f,%s,\"%s\"\n", measures[i].name, h->asked[i], h->obtained[i],
+                measures[i].source, measures[i].help);
     return whole_file_close(&w, e);
 }
 
-bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *folder, const char *name, err *e)
+bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *folder, const char *name,
+                     err *e)
 {
-    static const char *const files[] = {"skin.ply", "skull.ply", "mandible.ply", "upper_teeth.ply", "lower_teeth.ply"};
+    static const char *const files[] = {"skin.ply", "skull.ply", "mandible.ply", "upper_teeth.ply",
+                                        "lower_teeth.ply"};
     const surface *const parts[] = {&h->skin, &h->skull, &h->mandible, &h->upper_teeth, &h->lower_teeth};
     for (int i = 0; i < 5; i++) {
         char *path = in_folder(folder, files[i]);

@@ -28,13 +28,13 @@ bool norm_head_params_check(const norm_head_params *p, err *e)
         return err_set(e, ERR_USAGE, "asymmetry %g mm: -12 to 12 can be built", p->asymmetry_mm);
     for (int i = 0; i < MEASURE_COUNT; i++)
         if (p->is_set[i] && !(p->set[i] >= measures[i].low && p->set[i] <= measures[i].high))
-            return err_set(e, ERR_USAGE, "%s = %g: %g to %g can be built", measures[i].name, p->set[i], measures[i].low,
-                           measures[i].high);
+            return err_set(e, ERR_USAGE, "%s = %g: %g to %g can be built", measures[i].name, p->set[i],
+                           measures[i].low, measures[i].high);
     return true;
 }
 
-/* The thinnest soft tissue of the tables is that over the bridge of the nose. */
-static const double skin_least_mm = 3;
+/* The thinnest soft tissue of the tables is that over the bridge of the nose: 3 mm, with a spread. */
+static const double skin_least_mm = 2.5;
 
 /* Points of a body that only take the size of the sex: what is far from the jaws stays in proportion. */
 static void add_anchors(warp_pairs *w, const double (*point)[3], int count, const double scale[3])
@@ -47,14 +47,14 @@ static void add_anchors(warp_pairs *w, const double (*point)[3], int count, cons
         }
 }
 
-static const double skull_anchors[][3] = {{0, -88, 66}, {0, -55, 103}, {0, 10, 113}, {0, 82, 50}, {0, 40, -20},
-                                          {60, 0, 60},  {55, 40, 10},  {38, -76, 60}, {50, -63, 28}, {54, 10, -26},
-                                          {48, -11, 4}, {46, -64, -8}};
+static const double skull_anchors[][3] = {{0, -88, 66},  {0, -55, 103}, {0, 10, 113}, {0, 82, 50},
+                                          {0, 40, -20},  {60, 0, 60},   {55, 40, 10}, {38, -76, 60},
+                                          {50, -63, 28}, {54, 10, -26}, {48, -11, 4}, {46, -64, -8}};
 static const double mandible_anchors[][3] = {{44.3, -39.6, -8}};
 static const double skin_anchors[][3] = {
-    {0, -94, 68}, {0, -62, 107}, {0, 8, 119}, {0, 88, 55}, {0, 70, -20}, {70, 0, 60}, {66, 45, 20}, {44, -78, 60},
-    {30, -92, 37}, {52, -72, 30}, {66, -28, 30}, {31, -88, 14}, {45, -80, -3}, {75, 20, 30}, {76, 10, -22},
-    {0, -30, -150}, {0, 60, -150}};
+    {0, -94, 68},  {0, -62, 107}, {0, 8, 119},   {0, 88, 55},    {0, 70, -20},  {70, 0, 60},
+    {66, 45, 20},  {44, -78, 60}, {30, -92, 37}, {52, -72, 30},  {66, -28, 30}, {31, -88, 14},
+    {45, -80, -3}, {75, 20, 30},  {76, 10, -22}, {0, -30, -150}, {0, 60, -150}};
 
 /* Where men differ beyond size: brow, neck. */
 typedef struct dimorphic {
@@ -64,13 +64,15 @@ static const dimorphic skull_dimorphic[] = {{{8, -89, 34}, {0, -1.6, 0}}};
 static const dimorphic skin_dimorphic[] = {
     {{10, -96, 37}, {0, -1.6, 0}}, {{46, 10, -150}, {6, 0, 0}}, {{46, 13, -95}, {5, 0, 0}}};
 
-static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex, const double scale[3])
+static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex,
+                          const double scale[3])
 {
     for (int i = 0; i < count; i++)
         for (int side = 1; side >= -1; side -= 2) {
             double from[3], to[3];
             vec_copy(list[i].at, from);
-            for (int c = 0; c < 3; c++) to[c] = from[c] * scale[c] + (sex == NORM_MALE ? list[i].male_shift[c] : 0);
+            for (int c = 0; c < 3; c++)
+                to[c] = from[c] * scale[c] + (sex == NORM_MALE ? list[i].male_shift[c] : 0);
             from[0] *= side;
             to[0] *= side;
             warp_add(w, from, to);
@@ -84,8 +86,8 @@ static int place_number(const place *list, int count, const char *label)
     return -1;
 }
 
-static void warp_by(const warp_pairs *pairs, surface *s, surface *teeth, const place *list, int count, place_on bone,
-                    place_on crowns, landmarks *points)
+static void warp_by(const warp_pairs *pairs, surface *s, surface *teeth, const place *list, int count,
+                    place_on bone, place_on crowns, landmarks *points)
 {
     warp w = warp_through(pairs);
     warp_surface(&w, s);
@@ -102,21 +104,24 @@ static void warp_by(const warp_pairs *pairs, surface *s, surface *teeth, const p
 /* The skin over the jaws follows the bone under it: these points take a share of what their landmarks do. */
 typedef struct follower {
     double at[3];
-    struct { const char *label; double share; } of[3];
+    struct {
+        const char *label;
+        double share;
+    } of[3];
 } follower;
 
-static const follower followers[] = {
-    {{26, -89, -12}, {{"ANS", 0.35}, {"Or_L", 0.5}, {NULL, 0}}},
-    {{24, -91, -31}, {{"A", 0.6}, {"U1", 0.2}, {NULL, 0}}},
-    {{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25}, {NULL, 0}}},
-    {{36, -80, -50}, {{"U1", 0.2}, {"L1", 0.3}, {"B", 0.2}}},
-    {{24, -86, -72}, {{"B", 0.5}, {"Pog", 0.5}, {NULL, 0}}},
-    {{26, -77, -86}, {{"Me", 0.9}, {"Go_L", 0.1}, {NULL, 0}}},
-    {{38, -50, -80}, {{"Me", 0.55}, {"Go_L", 0.45}, {NULL, 0}}},
-    {{44, -45, -70}, {{"Me", 0.5}, {"Go_L", 0.5}, {NULL, 0}}},
-    {{57, -30, -40}, {{"Go_L", 0.45}, {NULL, 0}, {NULL, 0}}}};
+static const follower followers[] = {{{26, -89, -12}, {{"ANS", 0.35}, {"Or_L", 0.5}, {NULL, 0}}},
+                                     {{24, -91, -31}, {{"A", 0.6}, {"U1", 0.2}, {NULL, 0}}},
+                                     {{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25}, {NULL, 0}}},
+                                     {{36, -80, -50}, {{"U1", 0.2}, {"L1", 0.3}, {"B", 0.2}}},
+                                     {{24, -86, -72}, {{"B", 0.5}, {"Pog", 0.5}, {NULL, 0}}},
+                                     {{26, -77, -86}, {{"Me", 0.9}, {"Go_L", 0.1}, {NULL, 0}}},
+                                     {{38, -50, -80}, {{"Me", 0.55}, {"Go_L", 0.45}, {NULL, 0}}},
+                                     {{44, -45, -70}, {{"Me", 0.5}, {"Go_L", 0.5}, {NULL, 0}}},
+                                     {{57, -30, -40}, {{"Go_L", 0.45}, {NULL, 0}, {NULL, 0}}}};
 
-static void add_followers(warp_pairs *w, const place *list, int count, const double *to, const double scale[3])
+static void add_followers(warp_pairs *w, const place *list, int count, const double *to,
+                          const double scale[3])
 {
     for (size_t i = 0; i < sizeof followers / sizeof *followers; i++)
         for (int side = 1; side >= -1; side -= 2) {
@@ -166,8 +171,10 @@ static fields make_fields(const norm_head_params *p, const place *list, int coun
     for (int i = 0; i < count; i++) {
         if (!held[i]) continue;
         place_on on = list[i].on;
-        warp_add(on == ON_SKIN ? &f.skin : on == ON_SKULL || on == ON_UPPER_TEETH ? &f.upper : &f.lower, list[i].xyz,
-                 to + 3 * i);
+        warp_add(on == ON_SKIN                            ? &f.skin
+                 : on == ON_SKULL || on == ON_UPPER_TEETH ? &f.upper
+                                                          : &f.lower,
+                 list[i].xyz, to + 3 * i);
     }
 #define ANCHORS(w, a) add_anchors(w, a, (int)(sizeof(a) / sizeof *(a)), scale)
     ANCHORS(&f.upper, skull_anchors);
@@ -188,10 +195,10 @@ static void free_fields(fields *f)
     warp_pairs_free(&f->lower);
 }
 
-/* How far the lower side teeth must be lowered so that they meet the upper ones: the arches of a class II or III slide
- * along each other and cusps come onto cusps. */
-static bool find_bite(const norm_head_params *p, const place *list, int count, const norm_head *h, double *lowered_mm,
-                      err *e)
+/* How far the lower side teeth must be lowered so that they meet the upper ones: the arches of a class II or
+ * III slide along each other and cusps come onto cusps. */
+static bool find_bite(const norm_head_params *p, const place *list, int count, const norm_head *h,
+                      double *lowered_mm, err *e)
 {
     double lowered = 0;
     for (int round = 0; round < 6; round++) {
@@ -216,7 +223,8 @@ static bool find_bite(const norm_head_params *p, const place *list, int count, c
     return true;
 }
 
-static bool shape(const norm_head_params *p, const place *list, int count, const bool *exempt, norm_head *h, err *e)
+static bool shape(const norm_head_params *p, const place *list, int count, const bool *exempt, norm_head *h,
+                  err *e)
 {
     double lowered = 0;
     if (!find_bite(p, list, count, h, &lowered, e)) return false;
@@ -275,8 +283,7 @@ bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
         place *list = NULL;
         int count = places_find(&b, &list);
         bool *exempt = skin_folds(&h.skin);
-        ok = shape(p, list, count, exempt, &h, e) &&
-             onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
+        ok = shape(p, list, count, exempt, &h, e) && onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
              onto_mesh(&h.skull, ON_SKULL, list, count, &h.points, e) &&
              onto_mesh(&h.mandible, ON_MANDIBLE, list, count, &h.points, e) &&
              onto_mesh(&h.upper_teeth, ON_UPPER_TEETH, list, count, &h.points, e) &&
@@ -286,8 +293,10 @@ bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
         free(exempt);
     }
     bodies_free(&b);
-    if (ok) *out = h;
-    else norm_head_free(&h);
+    if (ok)
+        *out = h;
+    else
+        norm_head_free(&h);
     return ok;
 }
 

@@ -1,7 +1,8 @@
 /* norm_head: a synthetic patient from published norms: bones, teeth and skin that nobody ever had.
  *
- * One mean head is made of signed-distance shapes and meshed; smooth warps then take its landmarks exactly to where the
- * asked measures want them. Axes LPS, origin between the porions, Frankfort plane z = 0. Symmetric unless asked. */
+ * One mean head is made of signed-distance shapes and meshed; smooth warps then take its landmarks exactly to
+ * where the asked measures want them. Axes LPS, origin between the porions, Frankfort plane z = 0. Symmetric
+ * unless asked. */
 #pragma once
 #include "geometry/landmarks.h"
 #include "geometry/surface.h"

@@ -5,59 +5,58 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Where a landmark is looked for: from `guess`, on the surface, as far as possible along `direction` within `reach`
- * (0: the nearest point). x == 0 keeps it in the midline, else it is there on both sides. */
+/* Where a landmark is looked for: from `guess`, on the surface, as far as possible along `direction` within
+ * `reach` (0: the nearest point). x == 0 keeps it in the midline, else it is there on both sides. */
 typedef struct search {
     const char *label;
     body_id body;
     double guess[3], direction[3], reach;
 } search;
 
-static const search searches[] = {
-    {"N", BODY_SKULL, {0, -87, 26}, {0, 1, 0}, 4},
-    {"Or", BODY_SKULL, {30, -81, 0}, {0, 0, 0}, 0},
-    {"Po", BODY_SKULL, {58, -1, 0}, {0, 0, 0}, 0},
-    {"Ba", BODY_SKULL, {0, -2.5, -20}, {0, 0, -1}, 3},
-    {"ANS", BODY_SKULL, {0, -90, -24}, {0, -1, 0}, 3},
-    {"PNS", BODY_SKULL, {0, -38, -25}, {0, 1, 0}, 3},
-    {"A", BODY_SKULL, {0, -87, -31}, {0, 1, 0}, 4},
-    {"PR", BODY_SKULL, {12.3, -82.5, -19}, {0, 0, 0}, 0},
-    {"ZB", BODY_SKULL, {38, -67, -21.5}, {0, 0, 0}, 0},
-    {"PM", BODY_SKULL, {24, -37, -22.5}, {0, 0, 0}, 0},
-    {"IOF", BODY_SKULL, {26, -80, -8.3}, {0, 0, 0}, 0},
-    {"Zy", BODY_SKULL, {62, -34, -1}, {1, 0, 0}, 12},
-    {"Co", BODY_MANDIBLE, {49.5, -10.8, 0.4}, {0, 0, 1}, 5},
-    {"Cor", BODY_MANDIBLE, {44.3, -39.6, -8}, {0, 0, 1}, 5},
-    {"SN", BODY_MANDIBLE, {46, -25, -23}, {0, 0, -1}, 6},
-    {"Go", BODY_MANDIBLE, {44.5, -12, -58}, {0, 0.85, -0.53}, 9},
-    {"RP", BODY_MANDIBLE, {44, -8.5, -39}, {0, 1, 0}, 2},
-    {"RA", BODY_MANDIBLE, {42, -42, -42}, {0, -1, 0}, 2},
-    {"Li", BODY_MANDIBLE, {39.6, -24, -33.5}, {0, 0, 0}, 0},
-    {"B", BODY_MANDIBLE, {0, -83, -66}, {0, 1, 0}, 5},
-    {"Pog", BODY_MANDIBLE, {0, -83, -78}, {0, -1, 0}, 5},
-    {"Gn", BODY_MANDIBLE, {0, -80, -84}, {0, -0.707, -0.707}, 6},
-    {"Me", BODY_MANDIBLE, {0, -76, -86.5}, {0, 0, -1}, 6},
-    {"MF", BODY_MANDIBLE, {25.8, -68.5, -67.8}, {0, 0, 0}, 0},
-    {"G'", BODY_SKIN, {0, -96, 38}, {0, 0, 0}, 0},
-    {"N'", BODY_SKIN, {0, -93, 25}, {0, 1, 0}, 3},
-    {"Pn", BODY_SKIN, {0, -114.5, -17}, {0, -1, 0}, 6},
-    {"Sn", BODY_SKIN, {0, -99, -30}, {0, 0, 0}, 0},
-    {"Al", BODY_SKIN, {16.4, -98, -21.5}, {1, 0, 0}, 5},
-    {"A'", BODY_SKIN, {0, -97.5, -36}, {0, 1, 0}, 3},
-    {"Ls", BODY_SKIN, {0, -101, -44}, {0, -1, 0}, 4},
-    {"Stm", BODY_SKIN, {0, -93, -50}, {0, 1, 0}, 3},
-    {"Li_soft", BODY_SKIN, {0, -99, -55}, {0, -1, 0}, 4},
-    {"B'", BODY_SKIN, {0, -93, -67}, {0, 1, 0}, 4},
-    {"Pg'", BODY_SKIN, {0, -95, -78}, {0, -1, 0}, 5},
-    {"Gn'", BODY_SKIN, {0, -89, -91}, {0, -0.707, -0.707}, 6},
-    {"Me'", BODY_SKIN, {0, -77, -94.5}, {0, 0, -1}, 6},
-    {"C", BODY_SKIN, {0, -36, -88}, {0, 0.707, 0.707}, 8},
-    {"Ch", BODY_SKIN, {25, -87, -50.7}, {0, 0, 0}, 0},
-    {"En", BODY_SKIN, {16, -82, 14}, {0, 0, 0}, 0},
-    {"Ex", BODY_SKIN, {44, -79, 14}, {0, 0, 0}, 0},
-    {"Zy'", BODY_SKIN, {67, -31, 0}, {0, 0, 0}, 0},
-    {"Go'", BODY_SKIN, {54, -12, -62}, {0, 0, 0}, 0},
-    {"T", BODY_SKIN, {69, -4, 4}, {0, 0, 0}, 0}};
+static const search searches[] = {{"N", BODY_SKULL, {0, -87, 26}, {0, 1, 0}, 4},
+                                  {"Or", BODY_SKULL, {30, -81, 0}, {0, 0, 0}, 0},
+                                  {"Po", BODY_SKULL, {58, -1, 0}, {0, 0, 0}, 0},
+                                  {"Ba", BODY_SKULL, {0, -2.5, -20}, {0, 0, -1}, 3},
+                                  {"ANS", BODY_SKULL, {0, -90, -24}, {0, -1, 0}, 3},
+                                  {"PNS", BODY_SKULL, {0, -38, -25}, {0, 1, 0}, 3},
+                                  {"A", BODY_SKULL, {0, -87, -31}, {0, 1, 0}, 4},
+                                  {"PR", BODY_SKULL, {12.3, -82.5, -19}, {0, 0, 0}, 0},
+                                  {"ZB", BODY_SKULL, {38, -67, -21.5}, {0, 0, 0}, 0},
+                                  {"PM", BODY_SKULL, {24, -37, -22.5}, {0, 0, 0}, 0},
+                                  {"IOF", BODY_SKULL, {26, -80, -8.3}, {0, 0, 0}, 0},
+                                  {"Zy", BODY_SKULL, {62, -34, -1}, {1, 0, 0}, 12},
+                                  {"Co", BODY_MANDIBLE, {49.5, -10.8, 0.4}, {0, 0, 1}, 5},
+                                  {"Cor", BODY_MANDIBLE, {44.3, -39.6, -8}, {0, 0, 1}, 5},
+                                  {"SN", BODY_MANDIBLE, {46, -25, -23}, {0, 0, -1}, 6},
+                                  {"Go", BODY_MANDIBLE, {44.5, -12, -58}, {0, 0.85, -0.53}, 9},
+                                  {"RP", BODY_MANDIBLE, {44, -8.5, -39}, {0, 1, 0}, 2},
+                                  {"RA", BODY_MANDIBLE, {42, -42, -42}, {0, -1, 0}, 2},
+                                  {"Li", BODY_MANDIBLE, {39.6, -24, -33.5}, {0, 0, 0}, 0},
+                                  {"B", BODY_MANDIBLE, {0, -83, -66}, {0, 1, 0}, 5},
+                                  {"Pog", BODY_MANDIBLE, {0, -83, -78}, {0, -1, 0}, 5},
+                                  {"Gn", BODY_MANDIBLE, {0, -80, -84}, {0, -0.707, -0.707}, 6},
+                                  {"Me", BODY_MANDIBLE, {0, -76, -86.5}, {0, 0, -1}, 6},
+                                  {"MF", BODY_MANDIBLE, {25.8, -68.5, -67.8}, {0, 0, 0}, 0},
+                                  {"G'", BODY_SKIN, {0, -96, 38}, {0, 0, 0}, 0},
+                                  {"N'", BODY_SKIN, {0, -93, 25}, {0, 1, 0}, 3},
+                                  {"Pn", BODY_SKIN, {0, -114.5, -17}, {0, -1, 0}, 6},
+                                  {"Sn", BODY_SKIN, {0, -99, -30}, {0, 0, 0}, 0},
+                                  {"Al", BODY_SKIN, {16.4, -98, -21.5}, {1, 0, 0}, 5},
+                                  {"A'", BODY_SKIN, {0, -97.5, -36}, {0, 1, 0}, 3},
+                                  {"Ls", BODY_SKIN, {0, -101, -44}, {0, -1, 0}, 4},
+                                  {"Stm", BODY_SKIN, {0, -93, -50}, {0, 1, 0}, 3},
+                                  {"Li_soft", BODY_SKIN, {0, -99, -55}, {0, -1, 0}, 4},
+                                  {"B'", BODY_SKIN, {0, -93, -67}, {0, 1, 0}, 4},
+                                  {"Pg'", BODY_SKIN, {0, -95, -78}, {0, -1, 0}, 5},
+                                  {"Gn'", BODY_SKIN, {0, -89, -91}, {0, -0.707, -0.707}, 6},
+                                  {"Me'", BODY_SKIN, {0, -77, -94.5}, {0, 0, -1}, 6},
+                                  {"C", BODY_SKIN, {0, -36, -88}, {0, 0.707, 0.707}, 8},
+                                  {"Ch", BODY_SKIN, {25, -87, -50.7}, {0, 0, 0}, 0},
+                                  {"En", BODY_SKIN, {16, -82, 14}, {0, 0, 0}, 0},
+                                  {"Ex", BODY_SKIN, {44, -79, 14}, {0, 0, 0}, 0},
+                                  {"Zy'", BODY_SKIN, {67, -31, 0}, {0, 0, 0}, 0},
+                                  {"Go'", BODY_SKIN, {54, -12, -62}, {0, 0, 0}, 0},
+                                  {"T", BODY_SKIN, {69, -4, 4}, {0, 0, 0}, 0}};
 
 static void project(const bodies *b, body_id id, bool midline, double p[3])
 {
@@ -87,13 +86,16 @@ static void look(const bodies *b, const search *s, double p[3])
             if (vec_normalize(t) < 1e-3) break;
             vec_axpy(p, step, t, q);
             project(b, s->body, midline, q);
-            if (vec_dot(q, s->direction) <= vec_dot(p, s->direction) + 1e-4 || vec_distance(q, start) > s->reach) break;
+            if (vec_dot(q, s->direction) <= vec_dot(p, s->direction) + 1e-4 ||
+                vec_distance(q, start) > s->reach)
+                break;
             vec_copy(q, p);
         }
     }
 }
 
-static void add(place **list, int *count, const char *label, int side, place_on on, bool visible, const double p[3])
+static void add(place **list, int *count, const char *label, int side, place_on on, bool visible,
+                const double p[3])
 {
     *list = GROW_ARRAY(place, *list, *count + 1);
     place *q = &(*list)[(*count)++];
@@ -104,7 +106,8 @@ static void add(place **list, int *count, const char *label, int side, place_on 
     if (side < 0) q->xyz[0] = -q->xyz[0];
 }
 
-static void add_both(place **list, int *count, const char *label, place_on on, bool visible, const double p[3])
+static void add_both(place **list, int *count, const char *label, place_on on, bool visible,
+                     const double p[3])
 {
     add(list, count, label, 1, on, visible, p);
     add(list, count, label, -1, on, visible, p);
@@ -118,7 +121,8 @@ static void add_tooth(place **list, int *count, const char *label, place_on on, 
     add_both(list, count, label, on, true, p);
 }
 
-static void add_incisors(place **list, int *count, const char *edge, const char *apex, place_on on, const tooth *t)
+static void add_incisors(place **list, int *count, const char *edge, const char *apex, place_on on,
+                         const tooth *t)
 {
     double p[3];
     tooth_point(t, 0, 0, 0, false, p);
@@ -138,8 +142,10 @@ int places_find(const bodies *b, place **out)
         double p[3];
         look(b, &searches[i], p);
         place_on on = carrier[searches[i].body];
-        if (searches[i].guess[0] == 0) add(&list, &count, searches[i].label, 0, on, true, p);
-        else add_both(&list, &count, searches[i].label, on, true, p);
+        if (searches[i].guess[0] == 0)
+            add(&list, &count, searches[i].label, 0, on, true, p);
+        else
+            add_both(&list, &count, searches[i].label, on, true, p);
     }
     static const double sella[3] = {0, -21.3, 18};
     add(&list, &count, "S", 0, ON_SKULL, false, sella);

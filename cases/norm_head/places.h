@@ -7,7 +7,7 @@ typedef enum place_on { ON_SKIN, ON_SKULL, ON_MANDIBLE, ON_UPPER_TEETH, ON_LOWER
 
 typedef struct place {
     char label[LANDMARK_LABEL_SIZE];
-    place_on on;   /* which surface carries it (or, for points inside, moves it) */
+    place_on on;     /* which surface carries it (or, for points inside, moves it) */
     bool on_surface; /* false: S, the apices, the edge between the incisors */
     double xyz[3];
 } place;

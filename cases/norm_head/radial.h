@@ -1,5 +1,5 @@
-/* radial: a closed body that is star-shaped about a centre, through given points (cubic radial basis functions on
- * the sphere of directions). */
+/* radial: a closed body that is star-shaped about a centre, through given points (cubic radial basis
+ * functions on the sphere of directions). */
 #pragma once
 
 typedef struct radial {

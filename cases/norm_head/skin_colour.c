@@ -15,7 +15,8 @@ static double vermilion(double x, double y, double z)
     double t = fmin(x / 24.5, 1), arch = 1 - t * t;
     double top = -50.4 + 7.6 * pow(arch, 0.75) - 1.1 * exp(-x * x / 8);
     double bottom = -50.6 - 8.6 * pow(arch, 0.7);
-    return (1 - sdf_step(top - 0.8, top + 0.6, z)) * sdf_step(bottom - 0.6, bottom + 1.2, z) * (1 - sdf_step(23, 25, x));
+    return (1 - sdf_step(top - 0.8, top + 0.6, z)) * sdf_step(bottom - 0.6, bottom + 1.2, z) *
+           (1 - sdf_step(23, 25, x));
 }
 
 static double brow(double x, double y, double z)
@@ -24,7 +25,8 @@ static double brow(double x, double y, double z)
     double t = (x - 10.5) / 38; /* from the inner end to the tail */
     if (t < -0.1 || t > 1.1) return 0;
     double centre = 31.3 + 7 * sin(M_PI * 0.72 * sdf_clamp(t, 0, 1)) - 0.8 * t, half = 3.3 * (1 - 0.7 * t);
-    return 0.7 * (1 - sdf_step(0.3 * half, 1.5 * half, fabs(z - centre))) * sdf_step(-0.1, 0.2, t) * (1 - sdf_step(0.8, 1.1, t));
+    return 0.7 * (1 - sdf_step(0.3 * half, 1.5 * half, fabs(z - centre))) * sdf_step(-0.1, 0.2, t) *
+           (1 - sdf_step(0.8, 1.1, t));
 }
 
 uint8_t *skin_colours(const surface *skin)
@@ -43,7 +45,8 @@ uint8_t *skin_colours(const surface *skin)
         blend(c, hair, brow(x, y, z));
         if (y < -70 && x > 15 && x < 47) {
             double off = fabs(z - skin_lid_line(x));
-            blend(c, lash, 0.8 * (1 - sdf_step(0.4, 1.6, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
+            blend(c, lash,
+                  0.8 * (1 - sdf_step(0.4, 1.6, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
         }
         for (int k = 0; k < 3; k++) rgb[3 * i + k] = (uint8_t)(sdf_clamp(c[k], 0, 255) + 0.5);
     }

@@ -20,7 +20,13 @@ const tooth lower_teeth[TEETH_PER_SIDE] = {
     {{18.7, -59.8, -45.8}, {0.14, -0.02, -0.99}, 81, 11, 10.3, 7.5, 14},
     {{20.7, -49.3, -44.8}, {0.18, -0.10, -0.98}, 81, 10.4, 10, 7, 13}};
 
-enum { RING = 30, TABLE_RINGS = 5, CROWN_RINGS = 8, ROOT_RINGS = 7, RINGS = TABLE_RINGS + CROWN_RINGS + ROOT_RINGS };
+enum {
+    RING = 30,
+    TABLE_RINGS = 5,
+    CROWN_RINGS = 8,
+    ROOT_RINGS = 7,
+    RINGS = TABLE_RINGS + CROWN_RINGS + ROOT_RINGS
+};
 
 /* Half width and half depth as shares of width and depth at rows of `share` of the crown's height. */
 typedef struct crown_form {
@@ -35,7 +41,10 @@ static const crown_form forms[4] = {
     {{0, 0.2, 0.45, 0.8, 1}, {0.38, 0.46, 0.495, 0.46, 0.42}, {0.30, 0.42, 0.50, 0.47, 0.43}, 2.5, 1.4},
     {{0, 0.2, 0.45, 0.8, 1}, {0.42, 0.48, 0.495, 0.47, 0.44}, {0.34, 0.44, 0.50, 0.48, 0.45}, 3.2, 1.2}};
 
-static const crown_form *form_of(int place) { return &forms[place < 2 ? 0 : place == 2 ? 1 : place < 5 ? 2 : 3]; }
+static const crown_form *form_of(int place)
+{
+    return &forms[place < 2 ? 0 : place == 2 ? 1 : place < 5 ? 2 : 3];
+}
 
 static void crown_section(const crown_form *f, double s, double *wide, double *deep)
 {
@@ -59,7 +68,10 @@ static double table_depth(const crown_form *f, int place, double w, double o)
     return f->cusp_mm * (1 - cusp);
 }
 
-static double round_power(double c, double n) { return copysign(pow(fabs(c), 2 / n), c); }
+static double round_power(double c, double n)
+{
+    return copysign(pow(fabs(c), 2 / n), c);
+}
 
 static void tooth_axes(const tooth *t, double axis[3], double outer[3], double mesial[3])
 {
@@ -110,8 +122,8 @@ surface tooth_surface(const tooth *t, int place, bool right)
                 n = 2;
                 along = t->crown_mm + t->root_mm * share * 0.97;
             }
-            tooth_point(t, along, deep * t->depth_mm * round_power(co, n), wide * t->width_mm * round_power(cw, n),
-                        right, s.xyz + 3 * (k * RING + i));
+            tooth_point(t, along, deep * t->depth_mm * round_power(co, n),
+                        wide * t->width_mm * round_power(cw, n), right, s.xyz + 3 * (k * RING + i));
         }
     }
     int tip = RINGS * RING, apex = tip + 1;

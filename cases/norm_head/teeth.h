@@ -14,9 +14,9 @@ typedef struct tooth {
 
 extern const tooth upper_teeth[TEETH_PER_SIDE], lower_teeth[TEETH_PER_SIDE];
 
-/* One closed outward shell: crown and a single conical root (roots of molars are not divided). `place` is the number
- * in the quadrant, 0 the central incisor. right: mirrored to -x. The caller frees it. */
+/* One closed outward shell: crown and a single conical root (roots of molars are not divided). `place` is the
+ * number in the quadrant, 0 the central incisor. right: mirrored to -x. The caller frees it. */
 surface tooth_surface(const tooth *t, int place, bool right);
-/* A point of the tooth in the template: `along` mm from the tip towards the apex, `outer` mm towards lip or cheek,
- * `mesial` mm towards the midline. */
+/* A point of the tooth in the template: `along` mm from the tip towards the apex, `outer` mm towards lip or
+ * cheek, `mesial` mm towards the midline. */
 void tooth_point(const tooth *t, double along, double outer, double mesial, bool right, double p[3]);

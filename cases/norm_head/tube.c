@@ -16,7 +16,8 @@ tube tube_round(const double (*control)[4], int count)
         }
     }
     for (int c = 0; c < 3; c++) t.centre[c] = (low[c] + high[c]) / 2;
-    for (int i = 0; i < t.count; i++) t.reach = fmax(t.reach, vec_distance(t.ball[i], t.centre) + t.ball[i][3]);
+    for (int i = 0; i < t.count; i++)
+        t.reach = fmax(t.reach, vec_distance(t.ball[i], t.centre) + t.ball[i][3]);
     return t;
 }
 
@@ -39,7 +40,8 @@ void tube_free(tube *t)
 /* Ellipse with semi-axes r*flat along the axis of w and r across it, to first order. */
 static double flat_distance(double w, double rest, double r, double flat)
 {
-    double u = w / flat, k0 = sqrt(u * u + rest * rest) / r, k1 = sqrt(u * u / (flat * flat) + rest * rest) / (r * r);
+    double u = w / flat, k0 = sqrt(u * u + rest * rest) / r,
+           k1 = sqrt(u * u / (flat * flat) + rest * rest) / (r * r);
     return k1 < 1e-9 ? -r : k0 * (k0 - 1) / k1;
 }
 

@@ -1,4 +1,5 @@
-/* warp: a smooth map of space that takes given points exactly to given points (multiquadrics with an affine part). */
+/* warp: a smooth map of space that takes given points exactly to given points (multiquadrics with an affine
+ * part). */
 #pragma once
 #include "geometry/surface.h"
 

@@ -78,10 +78,13 @@ static void measures_come_out_as_asked(void **state)
 static void landmarks_lie_on_the_meshes(void **state)
 {
     (void)state;
-    static const struct { const char *label; const surface *on; } rows[] = {
-        {"N", &head.skull}, {"A", &head.skull}, {"Zy_L", &head.skull}, {"Or_R", &head.skull}, {"Pog", &head.mandible},
-        {"Go_R", &head.mandible}, {"Co_L", &head.mandible}, {"Pn", &head.skin}, {"Stm", &head.skin},
-        {"Pg'", &head.skin}, {"U6_L", &head.upper_teeth}, {"L6_R", &head.lower_teeth}};
+    static const struct {
+        const char *label;
+        const surface *on;
+    } rows[] = {{"N", &head.skull},       {"A", &head.skull},          {"Zy_L", &head.skull},
+                {"Or_R", &head.skull},    {"Pog", &head.mandible},     {"Go_R", &head.mandible},
+                {"Co_L", &head.mandible}, {"Pn", &head.skin},          {"Stm", &head.skin},
+                {"Pg'", &head.skin},      {"U6_L", &head.upper_teeth}, {"L6_R", &head.lower_teeth}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         err e = {0};
         nearest *tree;
@@ -119,7 +122,8 @@ static void bone_and_teeth_stay_under_the_skin(void **state)
     assert_ok(nearest_create(&head.skin, &tree, &e));
     const surface *bones[] = {&head.skull, &head.mandible, &head.upper_teeth, &head.lower_teeth};
     for (int b = 0; b < 4; b++)
-        for (int i = 0; i < bones[b]->vertex_count; i += 3) assert_true(nearest_inside(tree, bones[b]->xyz + 3 * i));
+        for (int i = 0; i < bones[b]->vertex_count; i += 3)
+            assert_true(nearest_inside(tree, bones[b]->xyz + 3 * i));
     nearest_destroy(&tree);
     assert_true(head.thinnest_mm > 2);
 }
@@ -182,7 +186,7 @@ static void refuses_what_it_cannot_build(void **state)
     p.is_set[SNA_DEG] = true;
     p.set[SNA_DEG] = 120;
     assert_refused(norm_head_params_check(&p, &e), ERR_USAGE);
-    p.set[SNA_DEG] = NAN;
+    p.set[SNA_DEG] = (double)NAN;
     assert_refused(norm_head_params_check(&p, &e), ERR_USAGE);
 }
 
