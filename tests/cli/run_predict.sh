@@ -1,0 +1,49 @@
+#!/bin/sh
+# run_predict.sh GNATHOS PLAN CASE|--class N: predicts a plan on a case (or on a synthetic head made here), and reads the
+# outcome as a user's script would. A case that is absent is skipped (status 77).
+set -eu
+gnathos=$1 plan=$2 case=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "FAIL: $*" >&2; exit 1; }
+if [ "$case" = --class ]; then
+    "$gnathos" new "$work/case" --norm --class "$4" >"$work/new.txt"
+    pictures=
+else
+    [ -f "$case/skin.ply" ] || { echo "skipped: $case is not here"; exit 77; }
+    "$gnathos" import --skin "$case/skin.ply" --skull "$case/skull.ply" --mandible "$case/mandible.ply" \
+        --landmarks "$case/landmarks.mrk.json" -o "$work/case" -q >"$work/import.txt"
+    pictures=--no-pictures
+fi
+"$gnathos" check -q "$work/case" --plan "$plan" >/dev/null
+# shellcheck disable=SC2086
+"$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" $pictures >"$work/predict.txt"
+cat "$work/predict.txt"
+/usr/bin/python3 - "$work/out" <<'PY'
+import json, os, sys
+out = sys.argv[1]
+o = json.load(open(os.path.join(out, "outcome.json")))
+s = o["solve"]
+assert s["solved"] and s["inverted_tets"] == 0, s["outcome"]
+assert s["relative_residual"] < 1e-6, s["relative_residual"]
+assert s["min_J"] > 0
+assert abs(s["force_imbalance"]) < 1e-6, s["force_imbalance"]
+for cut in o["prepared"]["cuts"]["balance"]:
+    assert cut["error_share"] < 1e-3, cut
+assert o["prepared"]["attachment"]["max_bone_gap_mm"] <= 0.051
+for name in ("skin_before.ply", "skin_after.ply", "skin_after.stl", "tissue.vtu", "landmarks_planned.mrk.json",
+             "segment_maxilla.ply", "segment_distal.stl"):
+    assert os.path.getsize(os.path.join(out, name)) > 1000, name
+# bone landmarks go where the plan sends them, to the digit
+for l in o["landmarks"]:
+    if l["label"] in ("Co_L", "Co_R", "N", "Or_L"):
+        assert max(abs(x) for x in l["forward_up_left_mm"]) == 0, l
+PY
+[ -n "$pictures" ] || [ -s "$work/out/pictures/overview.png" ] || fail "no pictures"
+# prepared once: the second plan of the case reuses it
+"$gnathos" predict "$work/case" --plan "$plan" -o "$work/again" --no-pictures >"$work/again.txt"
+grep -q reused "$work/again.txt" || fail "the prepared case was not reused"
+cmp "$work/out/skin_after.ply" "$work/again/skin_after.ply" || fail "the same plan gave another face"
+cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave another tissue"
+# an output in use is not replaced unasked
+if "$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" >/dev/null 2>&1; then fail "an old output was replaced"; fi
