@@ -56,13 +56,11 @@ static const double skin_anchors[][3] = {
     {66, 45, 20},  {44, -78, 60}, {30, -92, 37}, {52, -72, 30},  {66, -28, 30}, {31, -88, 14},
     {45, -80, -3}, {75, 20, 30},  {76, 10, -22}, {0, -30, -150}, {0, 60, -150}};
 
-/* Where men differ beyond size: brow, neck. */
+/* Where men differ beyond size and measures: the neck. */
 typedef struct dimorphic {
     double at[3], male_shift[3];
 } dimorphic;
-static const dimorphic skull_dimorphic[] = {{{8, -89, 34}, {0, -1.6, 0}}};
-static const dimorphic skin_dimorphic[] = {
-    {{10, -96, 37}, {0, -1.6, 0}}, {{46, 10, -150}, {6, 0, 0}}, {{46, 13, -95}, {5, 0, 0}}};
+static const dimorphic skin_dimorphic[] = {{{46, 10, -150}, {6, 0, 0}}, {{46, 13, -95}, {5, 0, 0}}};
 
 static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex,
                           const double scale[3])
@@ -110,7 +108,8 @@ typedef struct follower {
     } of[3];
 } follower;
 
-static const follower followers[] = {{{26, -89, -12}, {{"ANS", 0.35}, {"Or_L", 0.5}, {NULL, 0}}},
+static const follower followers[] = {{{10, -96, 37}, {{"N", 0.8}, {NULL, 0}, {NULL, 0}}},
+                                     {{26, -89, -12}, {{"ANS", 0.35}, {"Or_L", 0.5}, {NULL, 0}}},
                                      {{24, -91, -31}, {{"A", 0.6}, {"U1", 0.2}, {NULL, 0}}},
                                      {{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25}, {NULL, 0}}},
                                      {{36, -80, -50}, {{"U1", 0.2}, {"L1", 0.3}, {"B", 0.2}}},
@@ -180,8 +179,7 @@ static fields make_fields(const norm_head_params *p, const place *list, int coun
     ANCHORS(&f.upper, skull_anchors);
     ANCHORS(&f.lower, mandible_anchors);
     ANCHORS(&f.skin, skin_anchors);
-    add_dimorphic(&f.upper, skull_dimorphic, 1, p->sex, scale);
-    add_dimorphic(&f.skin, skin_dimorphic, 3, p->sex, scale);
+    add_dimorphic(&f.skin, skin_dimorphic, 2, p->sex, scale);
     add_followers(&f.skin, list, count, to, scale);
     free(to);
     free(held);

@@ -24,7 +24,7 @@ static double brow(double x, double y, double z)
     if (y > -50) return 0;
     double t = (x - 10.5) / 38; /* from the inner end to the tail */
     if (t < -0.1 || t > 1.1) return 0;
-    double centre = 31.3 + 7 * sin(M_PI * 0.72 * sdf_clamp(t, 0, 1)) - 0.8 * t, half = 3.3 * (1 - 0.7 * t);
+    double centre = 33.2 + 5.2 * sin(M_PI * 0.72 * sdf_clamp(t, 0, 1)) - 0.8 * t, half = 3.3 * (1 - 0.7 * t);
     return 0.7 * (1 - sdf_step(0.3 * half, 1.5 * half, fabs(z - centre))) * sdf_step(-0.1, 0.2, t) *
            (1 - sdf_step(0.8, 1.1, t));
 }
