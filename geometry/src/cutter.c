@@ -117,19 +117,48 @@ cutter cutter_box(const head_frame *f, const double low[3], const double high[3]
     return cutter_stack(2, 4, xyz, (const uint8_t[4]){0}, false, false);
 }
 
-/* Solves the symmetric positive 3x3 system by Cramer's rule. */
-static void solve3(const double a[9], const double b[3], double x[3])
+/* Turns the symmetric a into its eigenvalues (diagonal) and the columns of q into its eigenvectors: Jacobi rotations. */
+static void eigen3(double a[9], double q[9])
 {
-    double det = mat_det(a);
-    for (int c = 0; c < 3; c++) {
-        double m[9];
-        for (int i = 0; i < 9; i++) m[i] = i % 3 == c ? b[i / 3] : a[i];
-        x[c] = mat_det(m) / det;
+    for (int i = 0; i < 9; i++) q[i] = i % 4 == 0;
+    for (int sweep = 0; sweep < 12; sweep++)
+        for (int i = 0; i < 2; i++)
+            for (int j = i + 1; j < 3; j++) {
+                if (fabs(a[3 * i + j]) < 1e-300) continue;
+                double theta = (a[4 * j] - a[4 * i]) / (2 * a[3 * i + j]);
+                double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1);
+                double s = t * c;
+                for (int k = 0; k < 3; k++) { /* columns, then rows */
+                    double x = a[3 * k + i], y = a[3 * k + j], u = q[3 * k + i], v = q[3 * k + j];
+                    a[3 * k + i] = c * x - s * y;
+                    a[3 * k + j] = s * x + c * y;
+                    q[3 * k + i] = c * u - s * v;
+                    q[3 * k + j] = s * u + c * v;
+                }
+                for (int k = 0; k < 3; k++) {
+                    double x = a[3 * i + k], y = a[3 * j + k];
+                    a[3 * i + k] = c * x - s * y;
+                    a[3 * j + k] = s * x + c * y;
+                }
+            }
+}
+
+/* Least squares with the directions left out in which the planes are nearly parallel (within about 8 degrees): there
+ * a corner would shoot off along the fold. */
+static void solve_offset(double a[9], const double b[3], double x[3])
+{
+    const double parallel = 0.02;
+    double q[9];
+    eigen3(a, q);
+    double largest = fmax(a[0], fmax(a[4], a[8]));
+    for (int c = 0; c < 3; c++) x[c] = 0;
+    for (int k = 0; k < 3; k++) {
+        if (!(a[4 * k] > parallel * largest)) continue;
+        double along = (q[k] * b[0] + q[3 + k] * b[1] + q[6 + k] * b[2]) / a[4 * k];
+        for (int c = 0; c < 3; c++) x[c] += along * q[3 * c + k];
     }
 }
 
-/* Each vertex goes where its faces, shifted by their own amounts, meet: n . d = amount for all of them,
- * solved by least squares. The small diagonal picks the shortest d where the faces leave a direction open. */
 surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm)
 {
     surface out = surface_copy(&c->body);
@@ -149,9 +178,8 @@ surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm)
             }
     }
     for (int32_t v = 0; v < out.vertex_count; v++) {
-        double d[3], *m = a + 9 * (size_t)v;
-        for (int i = 0; i < 3; i++) m[4 * i] += 1e-6;
-        solve3(m, b + 3 * (size_t)v, d);
+        double d[3];
+        solve_offset(a + 9 * (size_t)v, b + 3 * (size_t)v, d);
         vec_add(out.xyz + 3 * (size_t)v, d, out.xyz + 3 * (size_t)v);
     }
     free(a);
