@@ -45,7 +45,8 @@ typedef struct contact_setup {
     const surface *bone[SEGMENT_COUNT]; /* at rest, outward, moves with its segment; open patches allowed; or
                                            NULL */
     int32_t upper_count, lower_count;
-    const int32_t *upper_lip, *lower_lip; /* [3*count] triangles of mesh nodes, out of the tissue */
+    const int32_t *upper_lip, *lower_lip; /* [3*count] triangles of mesh nodes, out of the tissue. A pair
+                                             that is not in both stays together */
     int32_t extra_count;
     const int32_t *extra; /* free nodes that meet bone as well, beside sliding and paired ones */
 } contact_setup;
@@ -54,9 +55,10 @@ typedef struct contact_report {
     bool on;
     int32_t nodes, links; /* that could touch; node-collider combinations */
     int32_t left_out;     /* combinations that lie inside each other at rest */
+    int32_t lost;         /* combinations deeper than the bones have moved: taken for behind, not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
-                             is less than 0 */
+                             is less than 0; at contacts with C >= 1/2 */
     double bone_area_mm2, lip_area_mm2, pressure_kpa; /* of touching nodes; largest */
     double energy_uj;
     int free_iterations, contact_iterations; /* phases A and B, all loads */

@@ -71,7 +71,7 @@ static void refresh_link(contact *c, int32_t i, contact_link *link, const double
     double at[3], facing[3], best = HUGE_VAL;
     int32_t nearest = -1;
     look(c, i, link, x, at, facing);
-    link->near = false;
+    link->near = link->lost = false;
     link->scale = 1;
     link->count = 0;
     link->plane_mm = HUGE_VAL;
@@ -89,9 +89,12 @@ static void refresh_link(contact *c, int32_t i, contact_link *link, const double
     vec_sub(at, cloud->x + 3 * (size_t)nearest, r);
     link->plane_mm = vec_dot(cloud->n + 3 * (size_t)nearest, r);
     double aside = sqrt(fmax(0, best - link->plane_mm * link->plane_mm));
-    if (link->plane_mm < 0 && distance > shallow * h && aside <= fmax(h, distance / 2)) {
-        if (distance > 2 * c->motion_reach_mm + h) return;
-        link->scale = wide * distance / h;
+    link->aside = aside / h;
+    double depth = -link->plane_mm;
+    if (depth > shallow * h && aside <= fmax(h, distance / 2) && link->faced) {
+        link->lost = depth > c->motion_reach_mm + shallow * h;
+        if (link->lost) return;
+        link->scale = wide * depth / h;
     }
     for (int32_t s = 0; s < cloud->count; s++) {
         vec_sub(at, cloud->x + 3 * (size_t)s, r);
@@ -107,12 +110,12 @@ static void refresh_link(contact *c, int32_t i, contact_link *link, const double
         link->sample[link->count++] = s;
     }
     link->near = link->count > 0;
-    if (!link->near || !is_lip(link)) return;
-    double slope;
-    imls_value v = imls_at(cloud, link->sample, link->count, link->scale, at, false, link->weight);
-    link->cover = imls_cover(v.S, &slope);
-    link->near = link->cover > 0;
     if (!link->near) return;
+    imls_value v =
+        imls_at(cloud, link->sample, link->count, link->scale, at, false, is_lip(link) ? link->weight : NULL);
+    link->cover = imls_cover(v.S);
+    link->near = link->cover > 0;
+    if (!link->near || !is_lip(link)) return;
     vec_copy(v.grad, link->m);
     link->base = v.d - vec_dot(v.grad, at);
     int32_t kept = 0;
@@ -178,30 +181,25 @@ static double evaluate_link(const contact *c, int32_t i, contact_link *link, con
     link->delta = 0;
     memset(link->force, 0, sizeof link->force);
     if (!link->near || link->left_out) return 0;
-    double push[3], cover, slope = 0, rim[3] = {0};
+    double push[3];
     if (is_lip(link)) {
         link->gap = lip_gap(c, i, link, x);
-        cover = link->cover;
         vec_copy(link->m, push);
     } else {
         double at[3];
         rigid_apply(&c->back[link->collider], x + 3 * (size_t)c->node[i], at);
         imls_value v =
             imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at, false, NULL);
-        cover = imls_cover(v.S, &slope);
-        if (!(cover > 0)) return 0;
+        if (!(v.S > 0)) return 0;
         link->gap = v.d;
-        link->cover = cover;
         vec_copy(v.grad, push);
-        vec_scale(v.S_grad, slope, rim);
     }
-    double delta = link->threshold_mm - link->gap, weight = stiffness_of(c, i, link);
+    double delta = link->threshold_mm - link->gap, weight = stiffness_of(c, i, link) * link->cover;
     if (!(delta > 0)) return 0;
     link->delta = delta;
-    vec_scale(push, -3 * weight * cover * delta * delta, link->force);
-    vec_axpy(link->force, weight * delta * delta * delta, rim, link->force);
+    vec_scale(push, -3 * weight * delta * delta, link->force);
     if (!is_lip(link)) rigid_rotate(&c->motion[link->collider], link->force, link->force);
-    return weight * cover * delta * delta * delta;
+    return weight * delta * delta * delta;
 }
 
 static void energy_body(int64_t begin, int64_t end, void *context)
@@ -373,7 +371,7 @@ contact_report contact_measure(const contact *c)
     r.on = true;
     r.nodes = c->node_count;
     r.links = c->link_count;
-    r.active_nodes = 0;
+    r.active_nodes = r.lost = 0;
     r.depth_mm = r.bone_area_mm2 = r.lip_area_mm2 = r.pressure_kpa = r.energy_uj = 0;
     memset(r.bone_force_mn, 0, sizeof r.bone_force_mn);
     for (int32_t i = 0; i < c->node_count; i++) {
@@ -382,6 +380,7 @@ contact_report contact_measure(const contact *c)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             const contact_link *link = &c->link[l];
             r.depth_mm = fmax(r.depth_mm, depth_of(link));
+            r.lost += link->lost;
             if (!is_lip(link))
                 vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);
             double pressure = vec_norm(link->force) / c->area[i] * (is_lip(link) ? 2 : 1);

@@ -109,13 +109,9 @@ imls_value imls_at(const imls_cloud *c, const int32_t *list, int32_t count, doub
     return v;
 }
 
-double imls_cover(double S, double *slope)
+double imls_cover(double S)
 {
     static const double low = 0.02, high = 0.15;
     double t = (S - low) / (high - low);
-    *slope = 0;
-    if (!(t > 0)) return 0;
-    if (t >= 1) return 1;
-    *slope = 30 * t * t * (1 - t) * (1 - t) / (high - low);
-    return t * t * t * (10 + t * (6 * t - 15));
+    return !(t > 0) ? 0 : t >= 1 ? 1 : t * t * t * (10 + t * (6 * t - 15));
 }

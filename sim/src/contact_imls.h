@@ -25,5 +25,5 @@ typedef struct imls_value {
 imls_value imls_at(const imls_cloud *cloud, const int32_t *list, int32_t count, double scale,
                    const double x[3], bool with_hess, double *weight);
 
-/* 0 below S = 0.02, 1 above 0.15, twice differentiable. */
-double imls_cover(double S, double *slope);
+/* 0 below S = 0.02, 1 above 0.15. */
+double imls_cover(double S);

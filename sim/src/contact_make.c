@@ -43,14 +43,24 @@ static bool check_params(const contact_params *p, err *e)
     return true;
 }
 
-attach_map contact_loosened(const attach_map *attach)
+attach_map contact_loosened(const attach_map *attach, const contact_setup *s)
 {
-    attach_map a = attach_map_new(attach->node_count, 0);
+    uint8_t *faced = NEW_ARRAY(uint8_t, attach->node_count);
+    for (int32_t i = 0; i < 3 * s->upper_count; i++) faced[s->upper_lip[i]] = 1;
+    for (int32_t i = 0; i < 3 * s->lower_count; i++) faced[s->lower_lip[i]] = 1;
+    attach_map a = attach_map_new(attach->node_count, attach->pair_count);
     for (int32_t v = 0; v < a.node_count; v++) {
         bool tied = attach->kind[v] == NODE_TIED;
         a.kind[v] = tied ? NODE_TIED : NODE_FREE;
         a.segment[v] = tied ? attach->segment[v] : -1;
     }
+    a.pair_count = 0;
+    for (int32_t i = 0; i < attach->pair_count; i++) {
+        if (faced[attach->pair[2 * i]] && faced[attach->pair[2 * i + 1]]) continue;
+        memcpy(a.pair + 2 * (size_t)a.pair_count, attach->pair + 2 * (size_t)i, 2 * sizeof *a.pair);
+        vec_copy(attach->pair_normal + 3 * (size_t)i, a.pair_normal + 3 * (size_t)a.pair_count++);
+    }
+    free(faced);
     return a;
 }
 
@@ -69,10 +79,6 @@ static bool check_lists(const tetmesh *m, const attach_map *a, const contact_set
             else
                 lip[v] |= (uint8_t)(1 << side);
         }
-    for (int32_t i = 0; ok && i < 2 * a->pair_count; i++)
-        if (!lip[a->pair[i]])
-            ok = err_set(e, ERR_INPUT, "paired node %d is in no lip face, so nothing would hold its lip back",
-                         a->pair[i]);
     for (int32_t i = 0; ok && i < s->extra_count; i++) {
         int32_t v = s->extra[i];
         if (v < 0 || v >= m->vertex_count || a->kind[v] == NODE_TIED)
@@ -221,10 +227,12 @@ static void measure_rest(contact *c, const tetmesh *m)
     for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
     contact_move(c, still, &guide, m->xyz);
     c->motion_reach_mm = 1e3;
+    for (int32_t l = 0; l < c->link_count; l++) c->link[l].faced = true;
     contact_refresh(c, m->xyz);
     for (int32_t l = 0; l < c->link_count; l++) {
         contact_link *link = &c->link[l];
         link->left_out = link->scale > 1;
+        link->faced = link->aside <= 0.6;
         c->report.left_out += link->left_out;
     }
     contact_energy(c, m->xyz, NULL);
@@ -254,7 +262,10 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
     for (int32_t i = 0; i < c->node_count; i++) c->own_sample[i] = -1;
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (setup->bone[s]) c->cloud[s] = imls_of_surface(setup->bone[s], p->support);
-    if (ok && setup->upper_count && setup->lower_count) {
+    if (ok && (setup->upper_count > 0) != (setup->lower_count > 0))
+        ok = err_set(e, ERR_INPUT, "the %s lip has contact faces, the other has none",
+                     setup->upper_count ? "upper" : "lower");
+    if (ok && setup->upper_count) {
         make_lip(c, m, 0, setup->upper_lip, setup->upper_count);
         make_lip(c, m, 1, setup->lower_lip, setup->lower_count);
         make_couplings(c, m);

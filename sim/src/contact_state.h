@@ -10,14 +10,19 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
+    bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
+                 */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
     /* frozen at refresh */
     double scale;    /* of the support radii */
     double plane_mm; /* height over the nearest facing sample's plane */
+    double aside;    /* off its normal, of h */
     int32_t count, room, *sample;
-    double *weight, base, m[3], cover; /* lips: gap = base + m.(x - sum weight x_sample) */
+    bool lost;                  /* deeper than the bones moved: taken for being behind, not inside */
+    double cover;               /* C(S) */
+    double *weight, base, m[3]; /* lips: gap = base + m.(x - sum weight x_sample) */
     /* of the last contact_energy */
     double gap, delta, force[3]; /* delta = tau - gap where positive and covered, else 0; dE/dx */
     double delta_before, delta_factored;
@@ -42,12 +47,13 @@ typedef struct contact {
 } contact;
 
 /* attach: as the caller gave it, with sliding and paired nodes. Refuses (ERR_INPUT) parameters out of range,
- * sliding nodes whose segment has no surface, pairs without lip faces, broken surfaces and face lists. */
+ * sliding nodes whose segment has no surface, one lip without the other, broken surfaces and face lists. */
 bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setup *setup, double young_kpa,
                   contact **out, err *e) MUST_CHECK;
 void contact_destroy(contact **c);
-/* A copy of the map in which sliding and paired nodes are free. */
-attach_map contact_loosened(const attach_map *attach);
+/* A copy of the map in which sliding nodes are free, and pairs too where both nodes are in faces of their
+ * lips. */
+attach_map contact_loosened(const attach_map *attach, const contact_setup *setup);
 
 /* Forgets stiffenings and counts of the last plan. */
 void contact_restart(contact *c);

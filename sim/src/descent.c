@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const double armijo = 1e-4;
+static const double touching_step_mm = 3; /* colliders are renewed after each step */
 
 static double dot(const double *a, const double *b, int64_t n)
 {
@@ -198,7 +199,8 @@ static double line_search(descent *d)
     double slope = dot(d->g, d->direction, n), longest = 0;
     if (!(slope < 0)) return 0;
     for (int64_t i = 0; i < n; i++) longest = fmax(longest, fabs(d->direction[i]));
-    double step = longest > d->params->max_step_mm ? d->params->max_step_mm / longest : 1;
+    double limit = d->touching ? fmin(touching_step_mm, d->params->max_step_mm) : d->params->max_step_mm;
+    double step = longest > limit ? limit / longest : 1;
     for (int cut = 0; cut <= d->params->max_step_cuts; cut++, step /= 2) {
         for (int64_t i = 0; i < n; i++) d->z_new[i] = d->z[i] + step * d->direction[i];
         boundary_place(&d->t->b, d->z_new, d->x_new);

@@ -69,7 +69,7 @@ static bool check_params(const solve_params *p, err *e)
     return true;
 }
 
-/* Sliding and paired nodes become free ones that touch. */
+/* Sliding and facing paired nodes become free ones that touch. */
 static bool make_contact(solver *t, const equilibrium_problem *problem, err *e)
 {
     boundary checked;
@@ -79,7 +79,7 @@ static bool make_contact(solver *t, const equilibrium_problem *problem, err *e)
     for (int32_t i = 0; i < problem->material_count; i++)
         young = fmax(young, problem->materials[i].material.young_kpa);
     if (!contact_make(problem->mesh, problem->attach, problem->contact, young, &t->touch, e)) return false;
-    t->loosened = contact_loosened(problem->attach);
+    t->loosened = contact_loosened(problem->attach, problem->contact);
     t->attach = &t->loosened;
     return true;
 }

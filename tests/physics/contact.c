@@ -306,7 +306,7 @@ static void check_derivatives(scene *s, double lift_mm)
     elements el;
     boundary b;
     assembly a;
-    attach_map loose = contact_loosened(&s->attach);
+    attach_map loose = contact_loosened(&s->attach, &s->setup);
     assert_ok(elements_make(&s->mesh, &s->table, 1, &el, &e));
     assert_ok(boundary_make(&s->mesh, &loose, &b, &e));
     assert_ok(assembly_make(&s->mesh, &el, &b, c->coupling, c->coupling_count, &a, &e));
@@ -562,6 +562,48 @@ static void tissue_that_starts_behind_a_thick_plate_ends_in_front(void **state)
     tear_down(&s);
 }
 
+static void contacts_too_deep_are_stiffened_or_not_accepted(void **state)
+{
+    (void)state;
+    err e = {0};
+    scene s;
+    block_on_plane(&s, 0.45);
+    s.setup.params.pressure_kpa = 0.5; /* far too soft a wall */
+    s.problem.motion[SEGMENT_MAXILLA] = rigid_translation((double[]){0, 0, -2});
+    equilibrium q = solve(&s);
+    tell("soft wall", &q);
+    assert_true(q.contact.stiffenings > 0);
+    assert_true(q.contact.depth_mm < 0.1);
+    equilibrium_free(&q);
+    s.setup.params.max_stiffenings = 0;
+    solve_params params = solve_params_default();
+    params.max_halvings = 0;
+    assert_ok(equilibrium_solve(&s.problem, &params, &q, &e));
+    assert_int_equal(q.outcome, STOPPED_PENETRATION);
+    assert_true(q.contact.depth_mm > 0.1);
+    equilibrium_free(&q);
+    tear_down(&s);
+}
+
+static void a_node_beside_a_collider_is_not_dragged_to_its_front(void **state)
+{
+    (void)state;
+    scene s;
+    block_on_plane(&s, 0.45);
+    surface_free(&s.bone);
+    s.bone = plane_surface(10, 8, 0, 12, 8, false);
+    surface plate =
+        plane_surface(-5, 8, 3, 4, 4, false); /* beside the block's left end, 3 mm higher: x -9 to -1 */
+    s.setup.bone[SEGMENT_CHIN] = &plate;
+    s.problem.motion[SEGMENT_CHIN] = rigid_translation((double[]){0, 0, 1});
+    equilibrium q = solve(&s);
+    for (int32_t i = 0; i < 3 * q.node_count; i++) assert_near(q.xyz[i], s.mesh.xyz[i], 1.5);
+    assert_true(q.contact.pressure_kpa < 1e3);
+    equilibrium_free(&q);
+    surface_free(&plate);
+    tear_down(&s);
+}
+
 static void what_cannot_touch_is_refused(void **state)
 {
     (void)state;
@@ -605,6 +647,8 @@ int main(void)
         cmocka_unit_test(a_rigid_motion_of_all_bones_moves_all_tissue_rigidly),
         cmocka_unit_test(every_thread_count_gives_the_same_bits),
         cmocka_unit_test(tissue_that_starts_behind_a_thick_plate_ends_in_front),
+        cmocka_unit_test(contacts_too_deep_are_stiffened_or_not_accepted),
+        cmocka_unit_test(a_node_beside_a_collider_is_not_dragged_to_its_front),
         cmocka_unit_test(what_cannot_touch_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
