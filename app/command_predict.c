@@ -1,4 +1,5 @@
 /* gnathos predict CASE --plan P -o OUT: the face after a plan. */
+#include "app/colliders.h"
 #include "app/command.h"
 #include "app/outcome.h"
 #include "geometry/mem.h"
@@ -9,21 +10,23 @@
 #endif
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 struct input {
     command_options common;
     const char *case_path[1], *plan, *out, *cache;
-    bool force, no_pictures;
+    bool force, no_pictures, contact;
 };
 
-enum { KEY_CACHE = 300, KEY_NO_PICTURES };
+enum { KEY_CACHE = 300, KEY_NO_PICTURES, KEY_CONTACT };
 
 static const struct argp_option options[] = {
     {"plan", 'p', "FILE", 0, "The plan: bone moves as JSON (gnathos help plan)", 0},
     {"output", 'o', "DIR", 0, "Folder for the results", 0},
     {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
+    {"contact", KEY_CONTACT, "on|off", 0, "Let lips part and mucosa lift off (default: off, always in touch)", 0},
     {"cache", KEY_CACHE, "DIR", 0, "Keep what is prepared in DIR instead of CASE/prepared", 0},
     {0}};
 
@@ -36,6 +39,10 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case 'o': in->out = arg; return 0;
     case 'f': in->force = true; return 0;
     case KEY_NO_PICTURES: in->no_pictures = true; return 0;
+    case KEY_CONTACT:
+        in->contact = strcmp(arg, "on") == 0;
+        if (!in->contact && strcmp(arg, "off") != 0) argp_error(state, "--contact is on or off, not %s", arg);
+        return 0;
     case KEY_CACHE: in->cache = arg; return 0;
     case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
     case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
@@ -74,7 +81,7 @@ static void show_iteration(const newton_record *r, void *context)
 }
 
 static bool solve(const case_file *c, const plan_file *plan, const plan_moves *moves, const prepared *p,
-                  command_options *common, equilibrium *out, err *e)
+                  bool contact, command_options *common, equilibrium *out, err *e)
 {
     region_material tissue_material = {.region = REGION_ANY};
     if (!material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson, &tissue_material.material, e))
@@ -89,7 +96,12 @@ static bool solve(const case_file *c, const plan_file *plan, const plan_moves *m
     params.interrupted = was_interrupted;
     params.progress = show_iteration;
     params.context = common;
-    return equilibrium_solve(&problem, &params, out, e);
+    colliders touch = {0};
+    if (contact && !colliders_make(p, &touch, e)) return false;
+    if (contact) problem.contact = &touch.setup;
+    bool ok = equilibrium_solve(&problem, &params, out, e);
+    colliders_free(&touch);
+    return ok;
 }
 
 #if GNATHOS_WITH_RENDER
@@ -148,7 +160,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e)) return false;
     equilibrium q = {0};
     double start = seconds();
-    if (!solve(c, &plan, &moves, p, (command_options *)&in->common, &q, e)) return false;
+    if (!solve(c, &plan, &moves, p, in->contact, (command_options *)&in->common, &q, e)) return false;
     outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .solve = &q, .prepare_s = prepare_s,
                  .solve_s = seconds() - start};
     *solved = q.outcome == SOLVED;

@@ -37,12 +37,24 @@ static json_t *scene_json(const outcome *o)
     const attach_map *a = &o->prepared->tissue.attach;
     int sliding = 0;
     for (int32_t v = 0; v < a->node_count; v++) sliding += a->kind[v] == NODE_SLIDING;
+    if (o->solve->contact.on)
+        return json_pack(
+            "{s[sss] s[{ssssso}{ssssso}{ssssso}]}", "on",
+            "elastic tissue (Stable Neo-Hookean, linear tetrahedra)",
+            "mucosa over crowns and alveolar bone touches without friction and may lift off",
+            a->pair_count ? "the lips touch without friction and may part" : "no lip contact", "left_out", "what",
+            "edges and hidden faces of teeth", "why",
+            "bone is felt through the wrapped surface under the tissue at rest, which ends at the bite",
+            "skin_error_mm", json_null(), "what", "expressions and jaw motion", "why", "not built",
+            "skin_error_mm", json_null(), "what",
+            json_string_value(json_object_get(o->prepared->report, "left_out")), "why",
+            "far from the moving bones", "skin_error_mm", json_null());
     return json_pack(
         "{s[sss] s[{ssssso}{ssssso}{ssssso}]}", "on",
         "elastic tissue (Stable Neo-Hookean, linear tetrahedra)",
         sliding ? "mucosa slides over crowns and alveolar bone, always in touch" : "no sliding mucosa",
         a->pair_count ? "the lips slide along each other, always in touch" : "no lip contact", "left_out",
-        "what", "contact that opens or closes: lips and mucosa can neither part nor meet", "why", "not built",
+        "what", "contact that opens or closes: lips and mucosa can neither part nor meet", "why", "--contact is off",
         "skin_error_mm", json_null(), "what", "expressions and jaw motion", "why", "not built",
         "skin_error_mm", json_null(), "what",
         json_string_value(json_object_get(o->prepared->report, "left_out")), "why",
@@ -56,12 +68,23 @@ static json_t *convergence_json(const equilibrium *q)
     for (int i = 0; i < q->record_count; i++) {
         const newton_record *r = &q->record[i];
         json_array_append_new(
-            record, json_pack("{sf si sf sf sf sf ss sf sf si}", "load", r->load, "iteration", r->iteration,
+            record, json_pack("{sf si sf sf sf sf ss sb sf sf si}", "load", r->load, "iteration", r->iteration,
                               "residual_mN", r->residual_mn, "tolerance_mN", r->tolerance_mn, "energy_uJ",
-                              r->energy_uj, "step", r->step, "hessian", kind[r->hessian], "factor_s",
+                              r->energy_uj, "step", r->step, "hessian", kind[r->hessian], "contact", r->contact, "factor_s",
                               r->factor_s, "min_J", r->min_j, "inverted", r->inverted_count));
     }
     return record;
+}
+
+static json_t *contact_json(const contact_report *c)
+{
+    if (!c->on) return json_pack("{sb}", "on", false);
+    return json_pack("{sb si si si si sf sf sf sf sf si si si sf si si}", "on", true, "nodes", c->nodes, "touching_nodes",
+                     c->active_nodes, "left_out", c->left_out, "lost", c->lost, "depth_mm", c->depth_mm, "bone_area_mm2",
+                     c->bone_area_mm2, "lip_area_mm2", c->lip_area_mm2, "pressure_kPa", c->pressure_kpa, "energy_uJ",
+                     c->energy_uj, "free_iterations", c->free_iterations, "contact_iterations",
+                     c->contact_iterations, "refreshes", c->refreshes, "last_refresh_mm", c->refresh_change_mm,
+                     "stiffenings", c->stiffenings, "uncoupled", c->uncoupled);
 }
 
 static json_t *solve_json(const equilibrium *q)
@@ -70,7 +93,7 @@ static json_t *solve_json(const equilibrium *q)
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (vec_norm(q->segment_force_mn[s]) > 0)
             json_object_set_new(force, segment_name((segment_id)s), vector(q->segment_force_mn[s]));
-    return json_pack("{ss sb si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so}", "outcome",
+    return json_pack("{ss sb si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so so}", "outcome",
                      solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations",
                      q->iterations, "factorisations", q->factorisations, "loads", q->loads, "halvings",
                      q->halvings, "residual_mN", q->residual_mn, "initial_residual_mN", q->reference_mn,
@@ -80,7 +103,7 @@ static json_t *solve_json(const equilibrium *q)
                      q->extremes.min_j, "min_J_tet", q->extremes.min_j_tet, "unknowns",
                      (json_int_t)q->unknown_count, "factor_entries", (json_int_t)q->factor_entries,
                      "largest_stretch", q->extremes.max_stretch, "memory_peak_MB", q->memory_peak_mb,
-                     "record", convergence_json(q));
+                     "contact", contact_json(&q->contact), "record", convergence_json(q));
 }
 
 static json_t *landmarks_json(const outcome *o)
@@ -218,6 +241,12 @@ void outcome_print(const outcome *o)
            q->extremes.inverted_count, q->extremes.max_stretch);
     printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "",
            o->solve_s);
+    const contact_report *c = &q->contact;
+    if (c->on)
+        printf("contact: %d of %d nodes touch, %.0f mm2 on bone and %.0f mm2 between the lips, deepest %.3f mm, up to "
+               "%.1f kPa; %d iterations without, %d with contact\n",
+               c->active_nodes, c->nodes, c->bone_area_mm2, c->lip_area_mm2, c->depth_mm, c->pressure_kpa,
+               c->free_iterations, c->contact_iterations);
     if (!o->points) return;
     int count = soft_ratios(o->prepared, o->points, r);
     printf("\n%-8s %9s %7s %7s   %-5s %9s %7s %7s   %s\n", "soft", "forward", "up", "left", "hard", "forward",
@@ -232,8 +261,7 @@ void outcome_print(const outcome *o)
             printf("-\n");
     }
     printf("\nAll in mm. Trust: the equilibrium is solved to the residual above; the mesh error is not "
-           "estimated yet, and "
-           "published predictions of this kind are 0.6 to 1.5 mm off on average, most at the lips, which "
-           "here can slide "
-           "but neither part nor meet. Not for planning on patients.\n");
+           "estimated yet, and published predictions of this kind are 0.6 to 1.5 mm off on average, most at the lips, "
+           "which here can %s. Not for planning on patients.\n",
+           c->on ? "part and meet" : "slide but neither part nor meet");
 }
