@@ -81,14 +81,15 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
     }
 }
 
-/* True if p lies outside the skin, by the side of the nearest triangle: good for open skins too, and a wrong
- * side at single points does not matter where shares are counted. */
-static bool outside(const nearest *tree, const surface *skin, double sign, const double p[3],
+/* True if p lies outside the skin: for a closed skin by the crossings of rays; for an open one by the side of the
+ * nearest triangle, which may be wrong beside a sharp groove, but hardly for many points. */
+static bool outside(const nearest *tree, const surface *skin, bool closed, double sign, const double p[3],
                     double *distance)
 {
     double at[3], u[3], v[3], n[3], d[3];
     int32_t t;
     *distance = nearest_point(tree, p, at, &t);
+    if (closed) return !nearest_inside(tree, p);
     const int32_t *corner = skin->tri + 3 * (size_t)t;
     const double *a = skin->xyz + 3 * (size_t)corner[0];
     vec_sub(skin->xyz + 3 * (size_t)corner[1], a, u);
@@ -111,6 +112,7 @@ void check_bones_inside(const case_file *c, const check_found *found, issue_list
         return;
     }
     double sign = surface_volume(skin) < 0 ? -1 : 1;
+    bool closed = found->open_edges[CASE_SKIN] == 0 && found->crowded_edges[CASE_SKIN] == 0;
     for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
         const surface *bone = &found->mesh[i];
         if (!bone->vertex_count) continue;
@@ -119,7 +121,7 @@ void check_bones_inside(const case_file *c, const check_found *found, issue_list
         for (int k = 0; k < count; k++) {
             int64_t v = (int64_t)k * bone->vertex_count / count;
             double gap;
-            if (!outside(tree, skin, sign, bone->xyz + 3 * v, &gap) || gap <= through_mm) continue;
+            if (!outside(tree, skin, closed, sign, bone->xyz + 3 * v, &gap) || gap <= through_mm) continue;
             out++;
             farthest = fmax(farthest, gap);
         }
