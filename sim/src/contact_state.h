@@ -28,6 +28,11 @@ typedef struct contact_link {
     double delta_before, delta_factored;
 } contact_link;
 
+static inline bool is_lip(const contact_link *link)
+{
+    return link->collider >= SEGMENT_COUNT;
+}
+
 typedef struct contact {
     contact_setup setup;
     double k; /* kPa/mm2 */
