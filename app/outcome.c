@@ -262,6 +262,7 @@ void outcome_print(const outcome *o)
     }
     printf("\nAll in mm. Trust: the equilibrium is solved to the residual above; the mesh error is not "
            "estimated yet, and published predictions of this kind are 0.6 to 1.5 mm off on average, most at the lips, "
-           "which here can %s. Not for planning on patients.\n",
+           "which here can %s. The nose has no cartilage here: its tip rises too much when the maxilla advances. "
+           "Not for planning on patients.\n",
            c->on ? "part and meet" : "slide but neither part nor meet");
 }
