@@ -87,6 +87,12 @@ static json_t *contact_json(const contact_report *c)
                      "stiffenings", c->stiffenings, "uncoupled", c->uncoupled);
 }
 
+/* Of the residual with the bones moved; 0 where nothing moves and both are rounding. */
+static double relative_residual(const equilibrium *q)
+{
+    return q->iterations && q->reference_mn > 0 ? q->residual_mn / q->reference_mn : 0;
+}
+
 static json_t *solve_json(const equilibrium *q)
 {
     json_t *force = json_object();
@@ -97,7 +103,7 @@ static json_t *solve_json(const equilibrium *q)
                      solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations",
                      q->iterations, "factorisations", q->factorisations, "loads", q->loads, "halvings",
                      q->halvings, "residual_mN", q->residual_mn, "initial_residual_mN", q->reference_mn,
-                     "relative_residual", q->reference_mn > 0 ? q->residual_mn / q->reference_mn : 0.0,
+                     "relative_residual", relative_residual(q),
                      "tolerance_mN", q->tolerance_mn, "energy_uJ", q->energy_uj, "segment_force_mN", force,
                      "force_imbalance", q->imbalance, "inverted_tets", q->extremes.inverted_count, "min_J",
                      q->extremes.min_j, "min_J_tet", q->extremes.min_j_tet, "unknowns",
@@ -237,7 +243,7 @@ void outcome_print(const outcome *o)
            "largest stretch "
            "%.2f\n",
            o->plan->name[0] ? o->plan->name : "plan", solve_outcome_text(q->outcome), q->iterations,
-           q->reference_mn > 0 ? q->residual_mn / q->reference_mn : 0.0, q->extremes.min_j,
+           relative_residual(q), q->extremes.min_j,
            q->extremes.inverted_count, q->extremes.max_stretch);
     printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "",
            o->solve_s);

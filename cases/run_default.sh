@@ -11,4 +11,5 @@ cmake --build "$build" --target gnathos
 gnathos=$build/app/gnathos
 [ -f "cases/$name/case.json" ] || "$gnathos" new "cases/$name"
 "$gnathos" check -q "cases/$name" --plan "cases/$name/plan.json"
+mkdir -p out
 "$gnathos" predict "cases/$name" --plan "cases/$name/plan.json" -o "out/$name" --force
