@@ -33,6 +33,7 @@ const verb verbs[] = {
     {"predict", "predict the face after a plan", WITH_SIM(command_predict)},
     {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
     {"compare", "compare a prediction with an actual face", NOT_BUILT},
+    {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
     {"audit", "run many plans and list which are feasible", NOT_BUILT},
     {"study", "error against run time of a case", NOT_BUILT},
     {"stress", "stiff materials and extreme moves", NOT_BUILT},

@@ -1,4 +1,5 @@
 #include "app/outcome.h"
+#include "app/ceph_report.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/transform_file.h"
@@ -168,6 +169,8 @@ json_t *outcome_json(const outcome *o)
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
         json_object_set_new(out, "soft_to_hard", ratios_json(o));
+        json_object_set_new(out, "cephalometry",
+                            ceph_report_json(&o->prepared->points, &o->points->after, &o->prepared->frame));
     }
     return out;
 }

@@ -1,0 +1,59 @@
+#include "app/outcome_read.h"
+#include <stdio.h>
+#include <sys/stat.h>
+
+enum { PATH_SIZE = 4096 };
+
+bool is_outcome(const char *folder)
+{
+    char path[PATH_SIZE];
+    struct stat there;
+    snprintf(path, sizeof path, "%s/outcome.json", folder);
+    return !stat(path, &there);
+}
+
+void outcome_record_free(outcome_record *r)
+{
+    json_file_free(&r->file);
+    landmarks_free(&r->before);
+    landmarks_free(&r->after);
+}
+
+static bool read_points(outcome_record *r, err *e)
+{
+    size_t i;
+    json_t *item;
+    const json_t *list = json_object_get(r->file.root, "landmarks");
+    if (!json_array_size(list)) return json_file_refuse(&r->file, "/landmarks", e, "this outcome has no landmarks");
+    json_array_foreach (list, i, item) {
+        char pointer[64];
+        double p[3];
+        const char *label = json_string_value(json_object_get(item, "label"));
+        snprintf(pointer, sizeof pointer, "/landmarks/%zu", i);
+        if (!label || !*label || json_string_length(json_object_get(item, "label")) >= LANDMARK_LABEL_SIZE)
+            return json_file_refuse(&r->file, pointer, e, "a landmark needs a label of 1 to 31 bytes");
+        snprintf(pointer, sizeof pointer, "/landmarks/%zu/before_lps_mm", i);
+        if (!json_file_vec3(&r->file, json_object_get(item, "before_lps_mm"), pointer, p, e)) return false;
+        landmarks_set(&r->before, label, p);
+        snprintf(pointer, sizeof pointer, "/landmarks/%zu/after_lps_mm", i);
+        if (!json_file_vec3(&r->file, json_object_get(item, "after_lps_mm"), pointer, p, e)) return false;
+        landmarks_set(&r->after, label, p);
+    }
+    return head_frame_from_landmarks(&r->before, &r->frame, e);
+}
+
+bool outcome_record_read(const char *folder, outcome_record *out, err *e)
+{
+    char path[PATH_SIZE];
+    outcome_record r = {0};
+    snprintf(path, sizeof path, "%s/outcome.json", folder);
+    bool ok = json_file_read(path, &r.file, e);
+    if (ok && !json_is_true(json_object_get(json_object_get(r.file.root, "solve"), "solved")))
+        ok = json_file_refuse(&r.file, "/solve", e, "the solve did not reach equilibrium: there is no predicted face");
+    ok = ok && read_points(&r, e);
+    if (ok)
+        *out = r;
+    else
+        outcome_record_free(&r);
+    return ok;
+}

@@ -1,0 +1,215 @@
+#include "geometry/cephalometry.h"
+#include "geometry/vec.h"
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINTS_MAX = 6, TOKEN_SIZE = 64 };
+/* p0, p1 ... are the points in the order of the table. */
+enum {
+    ANGLE,         /* at p1 between p0 and p2 */
+    CONVEXITY,     /* 180 - angle at p1, positive where p1 lies in front of p0 p2 */
+    ANGLE_CHANGE,  /* angle p0 p1 p2 less angle p0 p1 p3 */
+    VECTORS,       /* between p0->p1 and p2->p3 */
+    TILT,          /* of p2->p3 against p0->p1, positive: downward */
+    TILT_FH,       /* of p0->p1 against Frankfort, positive: downward */
+    ANGLE_BACK_FH, /* between Frankfort backward and p0->p1 */
+    DISTANCE,      /* p0 p1 */
+    FORWARD,       /* of p1 from p0, along Frankfort */
+    UP,            /* of p1 from p0 */
+    HP_ALONG,      /* of p3 from p2 along COGS' horizontal: p0->p1 = S->N turned 7 degrees down */
+    HP_DOWN,       /* of p3 below p2, perpendicular to it */
+    IN_FRONT,      /* of p2 in front of the line p0 p1 */
+    WITS           /* p2 in front of p3 along p1->p0 */
+};
+
+#define STEINER "Steiner 1953; WebCeph norms"
+#define COGS_S "Burstone et al. 1978 (COGS)"
+#define MCNAMARA_S "McNamara 1984"
+#define ARNETT_S "Arnett et al. 1999"
+#define PETERSON "Peterson's Principles of Oral and Maxillofacial Surgery 2022, ch. 60"
+#define NONE {NAN, NAN}, {NAN, NAN}, NULL
+
+const ceph_measure ceph_measures[] = {
+    {"SNA", "Steiner", "angle S-N-A", "deg", "S N A", {82, 2}, {82, 2}, STEINER, ANGLE},
+    {"SNB", "Steiner", "angle S-N-B", "deg", "S N B", {80, 2}, {80, 2}, STEINER, ANGLE},
+    {"ANB", "Steiner", "SNA - SNB", "deg", "S N A B", {2, 2}, {2, 2}, STEINER, ANGLE_CHANGE},
+    {"SN-MP", "Steiner", "Go-Me against S-N", "deg", "S N Go Me", {33.5, 5}, {33.5, 5}, STEINER, TILT},
+    {"U1-SN", "Steiner", "upper incisor's axis to N-S", "deg", "N S U1_apex U1", {103, 5}, {103, 5}, STEINER,
+     VECTORS},
+    {"IMPA", "Steiner", "lower incisor's axis to Me-Go", "deg", "Me Go L1_apex L1", {90, 5}, {90, 5}, STEINER,
+     VECTORS},
+    {"FMA", "Frankfort", "Go-Me against Frankfort", "deg", "Go Me", {25, 5}, {25, 5}, PETERSON, TILT_FH},
+    {"facial angle", "Frankfort", "N-Pog to Frankfort", "deg", "N Pog", {88, 2}, {88, 2}, PETERSON, ANGLE_BACK_FH},
+    {"maxillary depth", "Frankfort", "N-A to Frankfort", "deg", "N A", {90, 2}, {90, 2}, PETERSON, ANGLE_BACK_FH},
+    {"palatal plane", "Frankfort", "PNS-ANS against Frankfort", "deg", "PNS ANS", NONE, TILT_FH},
+    {"U1-FH", "Frankfort", "upper incisor's axis to Frankfort", "deg", "U1_apex U1", {111, 6}, {111, 6},
+     "WebCeph norms", ANGLE_BACK_FH},
+    {"N-A", "McNamara", "A in front of the perpendicular through N", "mm", "N A", NONE, FORWARD},
+    {"N-Pog", "McNamara", "Pog in front of the perpendicular through N", "mm", "N Pog", NONE, FORWARD},
+    {"Co-A", "McNamara", "effective midface", "mm", "Co A", {99.8, 6.0}, {91.0, 4.3}, MCNAMARA_S, DISTANCE},
+    {"Co-Gn", "McNamara", "effective mandible", "mm", "Co Gn", {134.3, 6.8}, {120.2, 5.3}, MCNAMARA_S, DISTANCE},
+    {"LAFH", "McNamara", "ANS-Me, lower face height", "mm", "ANS Me", {74.6, 5.0}, {66.7, 4.1}, MCNAMARA_S,
+     DISTANCE},
+    {"Wits", "Wits", "A in front of B along the occlusal plane of canines and first molars", "mm",
+     "occlusal_3 occlusal_6 A B", {-1.17, 1.9}, {-0.10, 1.8}, "Jacobson 1975", WITS},
+    {"N-ANS", "COGS", "perpendicular to the horizontal (S-N turned 7 deg)", "mm", "S N N ANS", {54.7, 3.2},
+     {50.0, 2.4}, COGS_S, HP_DOWN},
+    {"ANS-Gn", "COGS", "perpendicular to the horizontal", "mm", "S N ANS Gn", {68.6, 3.8}, {61.3, 3.3}, COGS_S,
+     HP_DOWN},
+    {"PNS-N", "COGS", "perpendicular to the horizontal", "mm", "S N N PNS", {53.9, 1.7}, {50.6, 2.2}, COGS_S,
+     HP_DOWN},
+    {"ANS-PNS", "COGS", "along the horizontal", "mm", "S N PNS ANS", {57.7, 2.5}, {52.6, 3.5}, COGS_S, HP_ALONG},
+    {"Ar-Go", "COGS", "length of the ramus", "mm", "Ar|Co Go", {52.0, 4.2}, {46.8, 2.5}, COGS_S, DISTANCE},
+    {"Go-Pg", "COGS", "length of the mandible's body", "mm", "Go Pog", {83.7, 4.6}, {74.3, 5.8}, COGS_S, DISTANCE},
+    {"gonial angle", "COGS", "angle Ar-Go-Gn", "deg", "Ar|Co Go Gn", {119.1, 6.5}, {122.0, 6.9}, COGS_S, ANGLE},
+    {"overjet", "teeth", "U1 in front of L1, along Frankfort", "mm", "L1 U1", {3.2, 0.6}, {3.2, 0.4}, ARNETT_S,
+     FORWARD},
+    {"overbite", "teeth", "L1 above U1", "mm", "U1 L1", {3.2, 0.7}, {3.2, 0.7}, ARNETT_S, UP},
+    {"nasolabial angle", "profile", "angle columella-Sn-Ls", "deg", "Cm|Pn Sn Ls", {107.7, 6.7}, {105.0, 7.7},
+     "Bergman, in the statistics of Cliniface", ANGLE},
+    {"facial convexity", "profile", "180 - angle G'-Sn-Pg'", "deg", "G' Sn Pg'", {12.0, 3.5}, {13.0, 3.8},
+     "Bergman, in the statistics of Cliniface", CONVEXITY},
+    {"total convexity", "profile", "angle G'-Pn-Pg'", "deg", "G' Pn Pg'", {142.6, 6.1}, {142.6, 6.1},
+     "statistics of Cliniface, men and women together", ANGLE},
+    {"Ls to E-line", "profile", "Ls in front of Pn-Pg'", "mm", "Pn Pg' Ls", {-4, 2.5}, {-4, 2.5},
+     "WebCeph norms, deviation 2 to 3", IN_FRONT},
+    {"Li to E-line", "profile", "Li_soft in front of Pn-Pg'", "mm", "Pn Pg' Li_soft", {-2, 2.5}, {-2, 2.5},
+     "WebCeph norms, deviation 2 to 3", IN_FRONT},
+    {"upper lip length", "profile", "Sn to stomion, vertical", "mm", "Stms|Stm Sn", {24.4, 2.5}, {21.0, 1.9},
+     ARNETT_S, UP},
+    {"lower lip length", "profile", "stomion to Me', vertical", "mm", "Me' Stmi|Stm", {54.3, 2.4}, {46.9, 2.3},
+     ARNETT_S, UP},
+    {"interlabial gap", "profile", "Stms above Stmi", "mm", "Stmi Stms", {2.4, 1.1}, {3.3, 1.3}, ARNETT_S, UP},
+    {"U1 show", "profile", "U1 below the upper lip", "mm", "U1 Stms|Stm", {3.9, 1.2}, {4.7, 1.6}, ARNETT_S, UP},
+    {"TVL Pn", "Arnett", "Pn in front of the true vertical through Sn", "mm", "Sn Pn", {17.4, 1.7}, {16.0, 1.4},
+     ARNETT_S, FORWARD},
+    {"TVL Ls", "Arnett", "Ls in front of it", "mm", "Sn Ls", {3.3, 1.7}, {3.7, 1.2}, ARNETT_S, FORWARD},
+    {"TVL Li", "Arnett", "Li_soft in front of it", "mm", "Sn Li_soft", {1.0, 2.2}, {1.9, 1.4}, ARNETT_S, FORWARD},
+    {"TVL B'", "Arnett", "B' in front of it", "mm", "Sn B'", {-7.1, 1.6}, {-5.3, 1.5}, ARNETT_S, FORWARD},
+    {"TVL Pg'", "Arnett", "Pg' in front of it", "mm", "Sn Pg'", {-3.5, 1.8}, {-2.6, 1.9}, ARNETT_S, FORWARD},
+};
+const int ceph_measure_count = sizeof ceph_measures / sizeof ceph_measures[0];
+_Static_assert(sizeof ceph_measures / sizeof ceph_measures[0] <= CEPH_MEASURES_MAX, "more measures than the callers hold");
+
+typedef struct point { /* in the midsagittal plane */
+    double forward, up;
+} point;
+
+static point minus(point a, point b)
+{
+    return (point){a.forward - b.forward, a.up - b.up};
+}
+static double dot(point a, point b)
+{
+    return a.forward * b.forward + a.up * b.up;
+}
+/* Positive where b is turned up from a, for a that looks forward. */
+static double cross(point a, point b)
+{
+    return a.forward * b.up - a.up * b.forward;
+}
+static double degrees(double radians)
+{
+    return radians * (180 / 3.14159265358979323846);
+}
+static double angle(point a, point b)
+{
+    return degrees(fabs(atan2(cross(a, b), dot(a, b))));
+}
+
+/* Midpoints: the name, and the suffixes of the landmarks that it is the mean of. */
+static const struct {
+    const char *name;
+    const char *of[4];
+} midpoint[] = {{"Go", {"Go_L", "Go_R"}},
+                {"Co", {"Co_L", "Co_R"}},
+                {"Ar", {"Ar_L", "Ar_R"}},
+                {"occlusal_3", {"U3_L", "U3_R", "L3_L", "L3_R"}},
+                {"occlusal_6", {"U6_L", "U6_R", "L6_L", "L6_R"}}};
+
+/* false: *missing names what is not there. */
+static bool find(const landmarks *l, const head_frame *f, const char *name, point *out, const char **missing)
+{
+    const char *single[4] = {name};
+    const char *const *of = single;
+    const landmark *p;
+    if (!landmarks_find(l, name))
+        for (size_t i = 0; i < sizeof midpoint / sizeof *midpoint; i++)
+            if (!strcmp(midpoint[i].name, name)) of = midpoint[i].of;
+    double mean[3] = {0}, local[3];
+    int n = 0;
+    for (; n < 4 && of[n]; n++) {
+        p = landmarks_find(l, of[n]);
+        if (!p) {
+            *missing = of[n];
+            return false;
+        }
+        vec_add(mean, p->xyz, mean);
+    }
+    vec_scale(mean, 1.0 / n, mean);
+    head_frame_to_local(f, mean, local);
+    *out = (point){-local[1], local[2]};
+    return true;
+}
+
+/* Splits "Ar|Co Go" and finds the points; false with a note where one is missing. */
+static bool gather(const landmarks *l, const head_frame *f, const char *names, point p[POINTS_MAX], char *note)
+{
+    char text[TOKEN_SIZE], *rest = text;
+    assert(strlen(names) < sizeof text);
+    strcpy(text, names);
+    for (char *token; (token = strsep(&rest, " ")); p++) {
+        const char *missing = NULL, *other_missing = NULL;
+        char *other = strchr(token, '|');
+        if (other) *other++ = 0;
+        if (find(l, f, token, p, &missing)) continue;
+        if (other && find(l, f, other, p, &other_missing)) {
+            /* lips that touch have one stomion: nothing is lost */
+            if (strcmp(other, "Stm")) snprintf(note, CEPH_NOTE_SIZE, "%s stands for %s", other, token);
+            continue;
+        }
+        if (other)
+            snprintf(note, CEPH_NOTE_SIZE, "needs %s or %s", missing, other_missing);
+        else
+            snprintf(note, CEPH_NOTE_SIZE, "needs %s", missing);
+        return false;
+    }
+    return true;
+}
+
+static double combine(int rule, const point p[POINTS_MAX])
+{
+    const point forward = {1, 0}, back = {-1, 0};
+    /* S-N turned 7 degrees down in front (Burstone et al. 1978) */
+    double c = cos(7 / degrees(1)), s = sin(7 / degrees(1));
+    point sn = minus(p[1], p[0]), hp = {c * sn.forward + s * sn.up, c * sn.up - s * sn.forward}, d;
+    double hp_length = sqrt(dot(hp, hp));
+    switch (rule) {
+    case ANGLE: return angle(minus(p[0], p[1]), minus(p[2], p[1]));
+    case CONVEXITY: d = minus(p[1], p[0]); return degrees(atan2(cross(minus(p[2], p[1]), d), dot(minus(p[2], p[1]), d)));
+    case ANGLE_CHANGE: return combine(ANGLE, p) - combine(ANGLE, (point[POINTS_MAX]){p[0], p[1], p[3]});
+    case VECTORS: return angle(minus(p[1], p[0]), minus(p[3], p[2]));
+    case TILT: d = minus(p[3], p[2]); return degrees(atan2(-cross(sn, d), dot(sn, d)));
+    case TILT_FH: return degrees(atan2(-cross(forward, sn), dot(forward, sn)));
+    case ANGLE_BACK_FH: return angle(back, sn);
+    case DISTANCE: return sqrt(dot(sn, sn));
+    case FORWARD: return sn.forward;
+    case UP: return sn.up;
+    case HP_ALONG: return dot(minus(p[3], p[2]), hp) / hp_length;
+    case HP_DOWN: return -cross(hp, minus(p[3], p[2])) / hp_length;
+    case IN_FRONT: d = minus(p[2], p[0]); return cross(sn, d) / sqrt(dot(sn, sn));
+    case WITS: d = minus(p[0], p[1]); return dot(minus(p[2], p[3]), d) / sqrt(dot(d, d));
+    default: assert(!"a rule without a formula"); return NAN;
+    }
+}
+
+void ceph_evaluate(const landmarks *l, const head_frame *f, ceph_value out[CEPH_MEASURES_MAX])
+{
+    for (int i = 0; i < ceph_measure_count; i++) {
+        point p[POINTS_MAX] = {{0, 0}};
+        out[i] = (ceph_value){.value = NAN};
+        if (gather(l, f, ceph_measures[i].points, p, out[i].note)) out[i].value = combine(ceph_measures[i].rule, p);
+    }
+}
