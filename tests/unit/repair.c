@@ -125,7 +125,7 @@ static void refuses_empty_and_broken_surfaces(void **state)
     repair_params p = repair_params_default();
     surface none = {0}, box = body_box(0, 0, 0, 1, 1, 1), out;
     assert_refused(repair_solid(&none, &p, &out, NULL, &e), ERR_GEOMETRY);
-    box.xyz[4] = NAN;
+    box.xyz[4] = (double)NAN;
     assert_refused(repair_solid(&box, &p, &out, NULL, &e), ERR_GEOMETRY);
     box.xyz[4] = 0;
     p.wrap_alpha_mm = 0;
