@@ -46,6 +46,11 @@ typedef struct point_array { /* a named array of doubles per node, for VTU files
 bool mesh_write_tets(const tetmesh *m, const point_array *arrays, int array_count, const char *path,
                      err *e) MUST_CHECK;
 
+/* .vtp, appended raw, SPACE=LPS in the field data; the first array is the active scalar. Refuses (ERR_USAGE) other
+ * extensions. */
+bool mesh_write_surface_arrays(const surface *s, const point_array *arrays, int array_count, const char *path,
+                               err *e) MUST_CHECK;
+
 #ifdef __cplusplus
 }
 #endif
