@@ -1,9 +1,11 @@
 /* newton: the shape of the tissue in equilibrium once the bones have moved.
  *
  * Minimises the elastic energy over the unknowns of `boundary`. Project-on-demand: the true Hessian is
- * factorised; only where it is not positive definite are its element blocks clamped, and only where that
- * fails too a multiple of the identity is added. Between factorisations the old factor is improved by the
- * last steps (L-BFGS: Nocedal 1980, with the factor as initial matrix) while that is the cheaper way down.
+ * factorised; only where it is not positive definite is a part of the one with clamped element blocks mixed
+ * in, as little as a coarse search finds enough (tissue that buckles moves on quickly then), at worst the
+ * whole of it, and only where that fails too a multiple of the identity is added. Between factorisations the
+ * old factor is improved by the last steps (L-BFGS: Nocedal 1980, with the factor as initial matrix) while
+ * that is the cheaper way down.
  * Steps are halved until the energy falls enough (Armijo); where the fall is below rounding, until the
  * residual falls. A tet may invert on the way and in the result: the Stable Neo-Hookean energies allow it, so
  * it is counted, not hidden. Several equilibria can exist; the one reached depends on the load path, which is
@@ -29,7 +31,8 @@ const char *solve_outcome_text(solve_outcome outcome);
 
 typedef enum hessian_kind {
     HESSIAN_TRUE,
-    HESSIAN_REUSED, /* an earlier factor and the steps since */
+    HESSIAN_REUSED,  /* an earlier factor and the steps since */
+    HESSIAN_BLENDED, /* partly projected */
     HESSIAN_PROJECTED,
     HESSIAN_SHIFTED /* projected and shifted */
 } hessian_kind;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const double armijo = 1e-4;
+static const double blend_least = 1.0 / 256, blend_ratio = 4;
 static const double touching_step_mm = 3; /* colliders are renewed after each step */
 
 static double dot(const double *a, const double *b, int64_t n)
@@ -31,6 +32,7 @@ void descent_make(descent *d, solver *t, const solve_params *params, equilibrium
     *d = (descent){.t = t,
                    .params = params,
                    .out = out,
+                   .blend = blend_least * blend_ratio * blend_ratio,
                    .z = NEW_ARRAY(double, n),
                    .x = NEW_ARRAY(double, c),
                    .force = NEW_ARRAY(double, c),
@@ -100,6 +102,36 @@ static void record(descent *d, int iteration, double step, hessian_kind kind, do
     if (d->params->progress) d->params->progress(r, d->params->context);
 }
 
+static void fill_matrix(descent *d, const double *x, projection how)
+{
+    assembly *a = &d->t->a;
+    double begin = clock_s();
+    assembly_stiffness(a, x, how);
+    if (d->touching) contact_stiffness(d->t->touch, x, how == PROJECTION_NONE, a);
+    assembly_matrix(a, &d->t->b);
+    d->out->assemble_s += clock_s() - begin;
+}
+
+/* Between the true matrix, which is not positive definite, and the clamped one, which is: the first in a
+ * coarse ladder that is. Next to a buckling tissue the clamped matrix is far too stiff along the very mode
+ * that wants to move, and residuals crawl; little of it is enough to give that mode a long way down. */
+static bool factorise_blend(descent *d, const double *true_value, bool *ok, err *e)
+{
+    assembly *a = &d->t->a;
+    int64_t entries = a->column_start[unknowns(d)];
+    double *mixed = NEW_ARRAY(double, entries);
+    bool fine = true;
+    double part = fmax(d->blend / blend_ratio, blend_least);
+    for (; fine && !*ok && part < 1; part *= 2) {
+        for (int64_t i = 0; i < entries; i++) mixed[i] = true_value[i] + part * (a->value[i] - true_value[i]);
+        fine = linear_factor(d->t->l, mixed, 0, ok, e);
+        d->blend = part;
+    }
+    if (fine && !*ok) d->blend = 1;
+    free(mixed);
+    return fine;
+}
+
 /* Factorises at x, from the wanted kind on towards the safer ones. *kind says what it became; *ok false:
  * none. */
 static bool factorise(descent *d, const double *x, hessian_kind *kind, bool *ok, double *seconds, err *e)
@@ -110,20 +142,21 @@ static bool factorise(descent *d, const double *x, hessian_kind *kind, bool *ok,
     d->pair_count = 0;
     d->has_factor = false;
     if (*kind == HESSIAN_TRUE) {
-        assembly_stiffness(a, x, PROJECTION_NONE);
-        if (d->touching) contact_stiffness(d->t->touch, x, true, a);
-        assembly_matrix(a, &d->t->b);
-        d->out->assemble_s += clock_s() - begin;
+        fill_matrix(d, x, PROJECTION_NONE);
         if (!linear_factor(d->t->l, a->value, 0, ok, e)) return false;
-        if (!*ok) *kind = HESSIAN_PROJECTED;
-    }
-    if (!*ok) {
-        double again = clock_s();
-        assembly_stiffness(a, x, d->params->projection);
-        if (d->touching) contact_stiffness(d->t->touch, x, false, a);
-        assembly_matrix(a, &d->t->b);
-        d->out->assemble_s += clock_s() - again;
-        if (*kind == HESSIAN_PROJECTED && !linear_factor(d->t->l, a->value, 0, ok, e)) return false;
+        if (!*ok) {
+            double *true_value = COPY_ARRAY(double, a->value, a->column_start[unknowns(d)]);
+            fill_matrix(d, x, d->params->projection);
+            *kind = HESSIAN_BLENDED;
+            bool fine = factorise_blend(d, true_value, ok, e);
+            free(true_value);
+            if (!fine) return false;
+        }
+    } else
+        fill_matrix(d, x, d->params->projection);
+    if (!*ok && *kind <= HESSIAN_PROJECTED) {
+        *kind = HESSIAN_PROJECTED;
+        if (!linear_factor(d->t->l, a->value, 0, ok, e)) return false;
     }
     if (!*ok) {
         *kind = HESSIAN_SHIFTED;
@@ -347,9 +380,9 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             if (!find_direction(d, e)) return false;
             step = line_search(d);
             if (step > 0 || kind == HESSIAN_SHIFTED) break;
-            kind = kind == HESSIAN_REUSED ? HESSIAN_TRUE
-                   : kind == HESSIAN_TRUE ? HESSIAN_PROJECTED
-                                          : HESSIAN_SHIFTED;
+            kind = kind == HESSIAN_REUSED                            ? HESSIAN_TRUE
+                   : kind == HESSIAN_TRUE || kind == HESSIAN_BLENDED ? HESSIAN_PROJECTED
+                                                                     : HESSIAN_SHIFTED;
         }
         if (!(step > 0)) {
             *outcome = STOPPED_LINE_SEARCH;

@@ -31,7 +31,8 @@ typedef struct descent {
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
     bool touching;   /* contact counts now */
-    bool has_factor; /* of this load's matrix, true or projected */
+    double blend;    /* part of the clamped matrix that the last blend needed */
+    bool has_factor; /* of this load's matrix, true, blended or projected */
     int since_factor;
     double residual_at_factor;
 } descent;

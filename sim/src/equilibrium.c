@@ -35,7 +35,7 @@ solve_params solve_params_default(void)
 {
     return (solve_params){.load_steps = 1,
                           .max_halvings = 8,
-                          .max_iterations = 60,
+                          .max_iterations = 120,
                           .max_step_cuts = 20,
                           .rel_tol = 1e-8,
                           .intermediate_rel_tol = 1e-4,
