@@ -36,7 +36,7 @@ static double one_linear_solve(const equilibrium_problem *p, err *e)
 static void show(const newton_record *r, void *context)
 {
     (void)context;
-    static const char *const kind[] = {"true", "reused", "projected", "shifted"};
+    static const char *const kind[] = {"true", "reused", "blended", "projected", "shifted"};
     fprintf(stderr, "  load %.3f it %2d residual %.3e energy %.9g step %g %s min J %.3f\n", r->load,
             r->iteration, r->residual_mn, r->energy_uj, r->step, kind[r->hessian], r->min_j);
 }
