@@ -65,7 +65,7 @@ static json_t *scene_json(const outcome *o)
 static json_t *convergence_json(const equilibrium *q)
 {
     json_t *record = json_array();
-    static const char *const kind[] = {"true", "reused", "projected", "shifted"};
+    static const char *const kind[] = {"true", "reused", "blended", "projected", "shifted"};
     for (int i = 0; i < q->record_count; i++) {
         const newton_record *r = &q->record[i];
         json_array_append_new(
