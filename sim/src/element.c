@@ -78,14 +78,41 @@ double element_energy(const material *m, const double gradient[12], double volum
 {
     double F[9];
     element_gradient_F(gradient, x_e, F);
-    material_terms t = material_terms_at(m, F);
-    if (!force) return volume * t.psi;
-    double C[9], P[9];
-    material_cofactor(F, C);
-    for (int i = 0; i < 9; i++) P[i] = volume * (2 * t.psi_i * F[i] + t.psi_j * C[i]);
+    double C[9], P[9], psi;
+    if (m->model >= MATERIAL_IJ_COUNT) {
+        psi = material_energy(m, F);
+        if (!force) return volume * psi;
+        material_stress(m, F, P);
+        for (int i = 0; i < 9; i++) P[i] *= volume;
+    } else {
+        material_terms t = material_terms_at(m, F);
+        psi = t.psi;
+        if (!force) return volume * psi;
+        material_cofactor(F, C);
+        for (int i = 0; i < 9; i++) P[i] = volume * (2 * t.psi_i * F[i] + t.psi_j * C[i]);
+    }
     for (int a = 1; a < 4; a++) mat_apply(P, gradient + 3 * a, force + 3 * a);
     for (int c = 0; c < 3; c++) force[c] = -(force[3 + c] + force[6 + c] + force[9 + c]);
-    return volume * t.psi;
+    return volume * psi;
+}
+
+/* Any Hessian: V g_a . H . g_b. */
+static void full_stiffness(const material *m, const double gradient[12], double volume, const double F[9],
+                           projection how, double block[9 * ELEMENT_PAIRS])
+{
+    double H[81], Hg[4][27]; /* [b]: rows of H times g_b */
+    material_hessian_projected(m, F, how, H);
+    for (int b = 0; b < 4; b++)
+        for (int r = 0; r < 9; r++) mat_apply(H + 9 * r, gradient + 3 * b, Hg[b] + 3 * r);
+    for (int p = 0; p < ELEMENT_PAIRS; p++) {
+        const double *g = gradient + 3 * element_pair[p][0], *h = Hg[element_pair[p][1]];
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                double sum = 0;
+                for (int r = 0; r < 3; r++) sum += g[r] * h[3 * (3 * i + r) + j];
+                block[9 * p + 3 * i + j] = volume * sum;
+            }
+    }
 }
 
 void element_stiffness(const material *m, const double gradient[12], double volume, const double x_e[12],
@@ -93,6 +120,10 @@ void element_stiffness(const material *m, const double gradient[12], double volu
 {
     double F[9], C[9], Fg[4][3], Cg[4][3];
     element_gradient_F(gradient, x_e, F);
+    if (m->model >= MATERIAL_IJ_COUNT) {
+        full_stiffness(m, gradient, volume, F, how, block);
+        return;
+    }
     material_terms t = material_terms_at(m, F);
     material_cofactor(F, C);
     for (int a = 0; a < 4; a++) {

@@ -1,10 +1,12 @@
 #include "sim/material.h"
 #include "geometry/vec.h"
+#include "sim/src/shape.h"
 #include "sim/src/svd3.h"
 #include <assert.h>
 #include <string.h>
 
-static const char *const model_names[MATERIAL_MODEL_COUNT] = {"snhlog", "snh", "nhln", "nhiso"};
+static const char *const model_names[MATERIAL_MODEL_COUNT] = {"snhlog", "snh", "nhln",
+                                                              "nhiso",  "fcr", "arap"};
 
 const char *material_model_name(material_model model)
 {
@@ -26,10 +28,17 @@ bool material_make(material_model model, double young_kpa, double poisson, mater
         return err_set(e, ERR_INPUT, "young_kpa must be > 0, got %g", young_kpa);
     if (!(poisson > -1) || !(poisson < 0.5))
         return err_set(e, ERR_INPUT, "poisson must lie between -1 and 0.5, both excluded, got %g", poisson);
+    if (model == MATERIAL_ARAP && poisson != 0)
+        return err_set(e, ERR_INPUT, "poisson of arap must be 0, got %g", poisson);
     double mu = young_kpa / (2 * (1 + poisson));
     double lambda = young_kpa * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    material m = {
-        .model = model, .young_kpa = young_kpa, .poisson = poisson, .mu_kpa = mu, .lambda_kpa = lambda};
+    material m = {.model = model,
+                  .young_kpa = young_kpa,
+                  .poisson = poisson,
+                  .mu_kpa = mu,
+                  .lambda_kpa = lambda,
+                  .target = {1, 0, 0, 0, 1, 0, 0, 0, 1},
+                  .target_j = 1};
     switch (model) {
     case MATERIAL_SNH_LOG:
         m.mu_kpa = 4.0 / 3.0 * mu;
@@ -42,6 +51,8 @@ bool material_make(material_model model, double young_kpa, double poisson, mater
         m.lambda_kpa = lambda + 2.0 / 3.0 * mu;
         break; /* the bulk modulus */
     case MATERIAL_NH_LN:
+    case MATERIAL_FIXED_COROTATED:
+    case MATERIAL_ARAP:
         break;
     default:
         assert(0);
@@ -115,11 +126,16 @@ void material_cofactor(const double F[9], double out[9])
 
 double material_energy(const material *m, const double F[9])
 {
+    if (m->model >= MATERIAL_IJ_COUNT) return shape_energy(m, F, NULL);
     return material_terms_at(m, F).psi;
 }
 
 void material_stress(const material *m, const double F[9], double P[9])
 {
+    if (m->model >= MATERIAL_IJ_COUNT) {
+        shape_energy(m, F, P);
+        return;
+    }
     material_terms t = material_terms_at(m, F);
     double C[9];
     material_cofactor(F, C);
@@ -134,6 +150,10 @@ static void add_outer(double scale, const double a[9], const double b[9], double
 
 void material_hessian_projected(const material *m, const double F[9], projection how, double H[81])
 {
+    if (m->model >= MATERIAL_IJ_COUNT) {
+        shape_hessian(m, F, how, H);
+        return;
+    }
     material_terms t = material_terms_at(m, F);
     double C[9];
     material_cofactor(F, C);

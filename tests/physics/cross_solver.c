@@ -93,7 +93,7 @@ static void the_slab_of_other_solvers_is_met(void **state)
         skip();
     }
     static const char *const name[] = {"snhlog", "snh", "nhln", "nhiso"};
-    for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
+    for (int model = 0; model < MATERIAL_IJ_COUNT; model++)
         for (int n = 0; n < 2; n++) {
             char file[64];
             snprintf(file, sizeof file, "u_%s_nu0%d.txt", name[model], n ? 49 : 45);

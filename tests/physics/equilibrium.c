@@ -1,6 +1,7 @@
 /* The whole solve: against theory, against itself, and where it must give up. */
 #include "tests/check.h"
 #include "geometry/parallel.h"
+#include "sim/motion.h"
 #include "sim/src/descent.h"
 #include "tests/physics/lips.h"
 #include <string.h>
@@ -74,7 +75,8 @@ static void an_affine_boundary_gives_an_affine_inside(void **state)
     for (int model = 0; model < MATERIAL_MODEL_COUNT; model++) {
         err e = {0};
         block b = {4, 5, 3, {4, 5, 3}, model % 2 ? 5 : 6, 0.25};
-        setting s = {.mesh = block_mesh(&b), .table = tissue_material((material_model)model, 15, 0.45)};
+        setting s = {.mesh = block_mesh(&b),
+                     .table = tissue_material((material_model)model, 15, model == MATERIAL_ARAP ? 0 : 0.45)};
         s.attach = attach_map_new(s.mesh.vertex_count, 0);
         for (int32_t v = 0; v < s.mesh.vertex_count; v++)
             for (int c = 0; c < 3; c++) {
@@ -357,6 +359,61 @@ static void a_block_compressed_to_a_fifth_is_solved_in_one_load(void **state)
     tear_down(&s);
 }
 
+/* Soft, stiff, soft: the stiffer the middle, the nearer it comes to a rigid plate. */
+static void layers_of_any_stiffness_contrast_are_solved(void **state)
+{
+    (void)state;
+    static const material_model models[] = {MATERIAL_SNH_LOG, MATERIAL_FIXED_COROTATED};
+    err e = {0};
+    for (int n = 0; n < 2; n++) {
+        block b = {6, 6, 6, {30, 30, 24}, 6, 0};
+        setting s = {.mesh = block_mesh(&b)};
+        s.attach = attach_map_new(s.mesh.vertex_count, 0);
+        for (int32_t v = 0; v < s.mesh.vertex_count; v++) {
+            if (s.mesh.xyz[3 * (size_t)v + 2] == 0) tie(&s.attach, v, SEGMENT_DISTAL);
+            if (s.mesh.xyz[3 * (size_t)v + 2] == 24) tie(&s.attach, v, SEGMENT_MAXILLA);
+        }
+        int32_t layer = s.mesh.tet_count / 3;
+        for (int32_t t = layer; t < 2 * layer; t++) s.mesh.region[t] = 1;
+        wire(&s);
+        s.problem.motion[SEGMENT_MAXILLA] =
+            rigid_rotation((double[]){15, 15, 24}, (double[]){1, 0.5, 0}, 0.15);
+        vec_add(s.problem.motion[SEGMENT_MAXILLA].t, (double[]){2, 4, -3},
+                s.problem.motion[SEGMENT_MAXILLA].t);
+        region_material table[2] = {{0, {0}}, {1, {0}}};
+        s.problem.materials = table;
+        s.problem.material_count = 2;
+        double bend[3];
+        for (int k = 0; k < 3; k++) {
+            double contrast = pow(10, 2 * (k + 1));
+            assert_ok(material_make(models[n], 15, 0.45, &table[0].material, &e));
+            assert_ok(material_make(models[n], 15 * contrast, 0.45, &table[1].material, &e));
+            solve_params params = solve_params_default();
+            equilibrium q = solve(&s, &params);
+            /* how far the nodes of the plate are from a rigid motion */
+            int32_t first = 49 * 2, count = 49 * 3;
+            rigid fit = motion_fit(s.mesh.xyz + 3 * first, q.xyz + 3 * first, count);
+            bend[k] = 0;
+            for (int32_t v = first; v < first + count; v++) {
+                double at[3];
+                rigid_apply(&fit, s.mesh.xyz + 3 * (size_t)v, at);
+                bend[k] = fmax(bend[k], vec_distance(at, q.xyz + 3 * (size_t)v));
+            }
+            print_message(
+                "%s, contrast %.0e: %s, %d iterations, %d factorisations, the plate bends by %.3g mm\n",
+                material_model_name(models[n]), contrast, solve_outcome_text(q.outcome), q.iterations,
+                q.factorisations, bend[k]);
+            assert_int_equal(q.outcome, SOLVED);
+            assert_true(q.residual_mn <= q.tolerance_mn);
+            assert_true(q.imbalance < 1e-6);
+            equilibrium_free(&q);
+        }
+        assert_near(bend[0] / bend[1], 100, 10); /* first order in 1 / contrast */
+        assert_near(bend[1] / bend[2], 100, 10);
+        tear_down(&s);
+    }
+}
+
 static void a_solve_that_runs_out_of_iterations_says_so(void **state)
 {
     (void)state;
@@ -488,6 +545,7 @@ int main(void)
         cmocka_unit_test(a_prepared_tissue_solves_plan_after_plan),
         cmocka_unit_test(a_block_compressed_to_half_is_solved),
         cmocka_unit_test(a_block_compressed_to_a_fifth_is_solved_in_one_load),
+        cmocka_unit_test(layers_of_any_stiffness_contrast_are_solved),
         cmocka_unit_test(a_solve_that_runs_out_of_iterations_says_so),
         cmocka_unit_test(a_failed_load_is_tried_again_in_smaller_steps),
         cmocka_unit_test(an_interrupted_solve_stops),

@@ -9,19 +9,24 @@ static material make(material_model model, double poisson)
 {
     err e = {0};
     material m;
-    assert_ok(material_make(model, 15, poisson, &m, &e));
+    assert_ok(material_make(model, 15, model == MATERIAL_ARAP ? 0 : poisson, &m, &e));
     return m;
+}
+
+static bool may_invert(material_model model)
+{
+    return model <= MATERIAL_SNH || model >= MATERIAL_IJ_COUNT;
 }
 
 static const double poissons[] = {-0.3, 0, 0.3, 0.45, 0.49, 0.499};
 
 /* Near rest, large, sheared, flattened, inverted; models without inversion get positive J only. */
-static void some_F(uint64_t *seed, int which, bool may_invert, double F[9])
+static void some_F(uint64_t *seed, int which, bool inverted_too, double F[9])
 {
     for (;;) {
         double size = which % 3 == 0 ? 1e-3 : which % 3 == 1 ? 0.3 : 1.6;
         for (int i = 0; i < 9; i++) F[i] = (i % 4 == 0) + size * block_random(seed);
-        if (may_invert || mat_det(F) > 0.2) return;
+        if (inverted_too || mat_det(F) > 0.2) return;
     }
 }
 
@@ -35,7 +40,7 @@ static void forces_are_the_derivative_of_energy_and_hessian_of_forces(void **sta
             for (int n = 0; n < 12; n++) {
                 material m = make((material_model)model, poissons[p]);
                 double F[9], P[9], H[81], scale = m.mu_kpa + fabs(m.lambda_kpa), h = 1e-4;
-                some_F(&seed, n, model <= MATERIAL_SNH, F);
+                some_F(&seed, n, may_invert((material_model)model), F);
                 inverted += mat_det(F) < 0;
                 material_stress(&m, F, P);
                 material_hessian(&m, F, H);
@@ -79,7 +84,7 @@ static void small_strains_obey_young_and_poisson(void **state)
     (void)state;
     for (int model = 0; model < MATERIAL_MODEL_COUNT; model++)
         for (size_t p = 0; p < sizeof poissons / sizeof *poissons; p++) {
-            double nu = poissons[p], P[9], s = 1e-6;
+            double nu = model == MATERIAL_ARAP ? 0 : poissons[p], P[9], s = 1e-6;
             material m = make((material_model)model, nu);
             double stretched[9] = {1 + s, 0, 0, 0, 1 - nu * s, 0, 0, 0, 1 - nu * s};
             material_stress(&m, stretched, P);
@@ -101,7 +106,7 @@ static void energy_does_not_see_rotations(void **state)
         for (int n = 0; n < 9; n++) {
             material m = make((material_model)model, 0.45);
             double F[9], RF[9] = {0};
-            some_F(&seed, n, model <= MATERIAL_SNH, F);
+            some_F(&seed, n, may_invert((material_model)model), F);
             for (int i = 0; i < 9; i++)
                 for (int k = 0; k < 3; k++) RF[i] += r.r[i / 3 * 3 + k] * F[3 * k + i % 3];
             assert_near(material_energy(&m, RF), material_energy(&m, F), 1e-11 * (m.mu_kpa + m.lambda_kpa));
@@ -139,7 +144,7 @@ static void projected_hessian_is_positive_and_keeps_what_was_positive(void **sta
         for (int n = 0; n < 60; n++) {
             material m = make((material_model)model, poissons[n % 6]);
             double F[9], H[81], C[81], A[81], value[9], mode[9][9], scale = 0;
-            some_F(&seed, n, model <= MATERIAL_SNH, F);
+            some_F(&seed, n, may_invert((material_model)model), F);
             material_hessian(&m, F, H);
             material_hessian_projected(&m, F, PROJECTION_CLAMP, C);
             material_hessian_projected(&m, F, PROJECTION_ABS, A);
@@ -147,6 +152,13 @@ static void projected_hessian_is_positive_and_keeps_what_was_positive(void **sta
             double low = lowest_eigenvalue(H, 0);
             assert_true(lowest_eigenvalue(C, 0) > -1e-10 * scale);
             assert_true(lowest_eigenvalue(A, 0) > -1e-10 * scale);
+            if (model >= MATERIAL_IJ_COUNT) { /* numerical: compare what is taken away */
+                double half = 0;
+                for (int i = 0; i < 81; i++) half = fmax(half, fabs((H[i] + A[i]) / 2 - C[i]));
+                assert_true(half < 1e-10 * scale);
+                changed += low < 0;
+                continue;
+            }
             material_terms t = material_terms_at(&m, F);
             int count = material_negative_modes(&t, F, value, mode);
             double lowest = 0;
@@ -178,7 +190,7 @@ static void element_forces_and_stiffness_are_derivatives(void **state)
         double x[12], f[12], K[9 * ELEMENT_PAIRS], h = 1e-4;
         for (int k = 0; k < 12; k++)
             x[k] = mesh.xyz[3 * mesh.tet[k / 3] + k % 3] +
-                   (model <= MATERIAL_SNH ? 1.5 : 0.3) * block_random(&seed);
+                   (may_invert((material_model)model) ? 1.5 : 0.3) * block_random(&seed);
         const material *m = &el.materials[0];
         element_energy(m, el.gradient, el.volume[0], x, f);
         element_stiffness(m, el.gradient, el.volume[0], x, PROJECTION_NONE, K);
@@ -243,6 +255,55 @@ static void svd_rebuilds_flat_and_mirrored_matrices(void **state)
     }
 }
 
+static void shape_targeting_pulls_to_its_target(void **state)
+{
+    (void)state;
+    static const double target[9] = {1.4, 0.2, -0.1, 0.2, 0.8, 0.15, -0.1, 0.15, 1.1};
+    uint64_t seed = 21;
+    rigid r = rigid_rotation((double[]){0, 0, 0}, (double[]){1, -2, 0.5}, 1.7);
+    for (int model = MATERIAL_IJ_COUNT; model < MATERIAL_MODEL_COUNT; model++) {
+        err e = {0};
+        material m = make((material_model)model, 0.45);
+        assert_ok(material_set_target(&m, target, &e));
+        double RA[9] = {0}, P[9], scale = m.mu_kpa + m.lambda_kpa, h = 1e-4;
+        for (int i = 0; i < 9; i++)
+            for (int k = 0; k < 3; k++) RA[i] += r.r[i / 3 * 3 + k] * target[3 * k + i % 3];
+        material_stress(&m, RA, P);
+        for (int i = 0; i < 9; i++) assert_near(P[i], 0, 1e-13 * scale);
+        assert_near(material_energy(&m, RA), 0, 1e-13 * scale);
+        assert_true(material_energy(&m, r.r) > 0.1);
+        for (int n = 0; n < 30; n++) {
+            double F[9], H[81], Q[2][9], psi[2];
+            some_F(&seed, n, n % 2, F);
+            material_stress(&m, F, P);
+            material_hessian(&m, F, H);
+            for (int i = 0; i < 9; i++) {
+                for (int side = 0; side < 2; side++) {
+                    double G[9];
+                    memcpy(G, F, sizeof G);
+                    G[i] += side ? -h : h;
+                    psi[side] = material_energy(&m, G);
+                    material_stress(&m, G, Q[side]);
+                }
+                assert_near((psi[0] - psi[1]) / (2 * h), P[i], 1e-6 * scale);
+                for (int j = 0; j < 9; j++)
+                    assert_near((Q[0][j] - Q[1][j]) / (2 * h), H[9 * j + i], 1e-6 * scale);
+            }
+            /* 2 mu Id majorises the Hessian of the part without volume */
+            if (model != MATERIAL_ARAP) continue;
+            for (int i = 0; i < 81; i++) H[i] = (i % 10 == 0 ? 2 * m.mu_kpa : 0) - H[i];
+            assert_true(lowest_eigenvalue(H, 0) > -1e-10 * scale);
+        }
+        double skewed[9] = {1, 0.1, 0, 0, 1, 0, 0, 0, 1}, flat[9] = {1, 0, 0, 0, 1, 0, 0, 0, 0};
+        assert_refused(material_set_target(&m, skewed, &e), ERR_INPUT);
+        assert_refused(material_set_target(&m, flat, &e), ERR_INPUT);
+    }
+    err e = {0};
+    material m = make(MATERIAL_SNH, 0.45);
+    assert_refused(material_set_target(&m, target, &e), ERR_INPUT);
+    assert_refused(material_make(MATERIAL_ARAP, 15, 0.3, &m, &e), ERR_INPUT);
+}
+
 static void refuses_constants_out_of_range(void **state)
 {
     (void)state;
@@ -287,6 +348,7 @@ int main(void)
         cmocka_unit_test(projected_hessian_is_positive_and_keeps_what_was_positive),
         cmocka_unit_test(element_forces_and_stiffness_are_derivatives),
         cmocka_unit_test(svd_rebuilds_flat_and_mirrored_matrices),
+        cmocka_unit_test(shape_targeting_pulls_to_its_target),
         cmocka_unit_test(refuses_constants_out_of_range),
         cmocka_unit_test(a_region_without_material_is_refused),
     };
