@@ -66,6 +66,7 @@ bool app_interrupted(void);
 
 int command_ceph(int argc, char **argv);
 int command_check(int argc, char **argv);
+int command_compare(int argc, char **argv);
 int command_cut(int argc, char **argv);
 int command_import(int argc, char **argv);
 int command_new(int argc, char **argv);

@@ -32,7 +32,7 @@ const verb verbs[] = {
     {"prepare", "cut the bones and mesh the soft tissue of a case", WITH_CGAL(command_prepare)},
     {"predict", "predict the face after a plan", WITH_SIM(command_predict)},
     {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
-    {"compare", "compare a prediction with an actual face", NOT_BUILT},
+    {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
     {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
     {"audit", "run many plans and list which are feasible", NOT_BUILT},
     {"study", "error against run time of a case", NOT_BUILT},

@@ -1,4 +1,5 @@
 #include "app/outcome_read.h"
+#include "geometry/mesh_file.h"
 #include <stdio.h>
 #include <sys/stat.h>
 
@@ -56,4 +57,45 @@ bool outcome_record_read(const char *folder, outcome_record *out, err *e)
     else
         outcome_record_free(&r);
     return ok;
+}
+
+bool outcome_skin_read(const char *folder, bool after, surface *out, err *e)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/skin_%s.ply", folder, after ? "after" : "before");
+    return mesh_read_surface(path, MESH_SPACE_FROM_FILE, out, NULL, e);
+}
+
+static bool read_segment(const char *path, const outcome_record *r, const char *name, surface *out, rigid *move, err *e)
+{
+    const json_t *plan = json_object_get(json_object_get(r->file.root, "plan"), "segments"),
+                 *matrix = json_object_get(json_object_get(plan, name), "matrix");
+    double m[16];
+    if (matrix) {
+        for (size_t i = 0; i < 16; i++) m[i] = json_number_value(json_array_get(matrix, i));
+        if (!rigid_from_matrix(m, move, e)) return err_prefix(e, "%s: plan.segments.%s", r->file.path, name);
+    }
+    if (!mesh_read_surface(path, MESH_SPACE_FROM_FILE, out, NULL, e)) return false;
+    rigid back = rigid_inverse(move);
+    if (matrix) surface_transform(out, &back);
+    return true;
+}
+
+bool outcome_segments_read(const char *folder, const outcome_record *r, segments *at_rest, rigid move[SEGMENT_COUNT],
+                           err *e)
+{
+    segments all = {0};
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        char path[PATH_SIZE];
+        struct stat there;
+        const char *name = segment_name((segment_id)s);
+        move[s] = rigid_identity();
+        snprintf(path, sizeof path, "%s/segment_%s.ply", folder, name);
+        if (stat(path, &there)) continue;
+        if (read_segment(path, r, name, &all.part[s], &move[s], e)) continue;
+        segments_free(&all);
+        return false;
+    }
+    *at_rest = all;
+    return true;
 }

@@ -29,7 +29,7 @@ enum {
 #define MCNAMARA_S "McNamara 1984"
 #define ARNETT_S "Arnett et al. 1999"
 #define PETERSON "Peterson's Principles of Oral and Maxillofacial Surgery 2022, ch. 60"
-#define NONE {NAN, NAN}, {NAN, NAN}, NULL
+#define NONE {(double)NAN, (double)NAN}, {(double)NAN, (double)NAN}, NULL
 
 const ceph_measure ceph_measures[] = {
     {"SNA", "Steiner", "angle S-N-A", "deg", "S N A", {82, 2}, {82, 2}, STEINER, ANGLE},
@@ -201,7 +201,7 @@ static double combine(int rule, const point p[POINTS_MAX])
     case HP_DOWN: return -cross(hp, minus(p[3], p[2])) / hp_length;
     case IN_FRONT: d = minus(p[2], p[0]); return cross(sn, d) / sqrt(dot(sn, sn));
     case WITS: d = minus(p[0], p[1]); return dot(minus(p[2], p[3]), d) / sqrt(dot(d, d));
-    default: assert(!"a rule without a formula"); return NAN;
+    default: assert(!"a rule without a formula"); return (double)NAN;
     }
 }
 
@@ -209,7 +209,7 @@ void ceph_evaluate(const landmarks *l, const head_frame *f, ceph_value out[CEPH_
 {
     for (int i = 0; i < ceph_measure_count; i++) {
         point p[POINTS_MAX] = {{0, 0}};
-        out[i] = (ceph_value){.value = NAN};
+        out[i] = (ceph_value){.value = (double)NAN};
         if (gather(l, f, ceph_measures[i].points, p, out[i].note)) out[i].value = combine(ceph_measures[i].rule, p);
     }
 }

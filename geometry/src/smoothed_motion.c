@@ -35,8 +35,8 @@ static void grid_free(bone_grid *g)
 
 static bone_grid grid_make(const segments *at_rest, const rigid move[SEGMENT_COUNT], int32_t count)
 {
-    bone_grid g = {.count = count, .low = {INFINITY, INFINITY, INFINITY}};
-    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    bone_grid g = {.count = count, .low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     g.xyz = NEW_ARRAY(double, 3 * (size_t)count);
     g.moved = NEW_ARRAY(double, 3 * (size_t)count);
     g.order = NEW_ARRAY(int32_t, count);

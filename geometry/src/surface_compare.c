@@ -22,7 +22,7 @@ static void measure(int64_t begin, int64_t end, void *context)
         const double *p = j->from->xyz + 3 * v, *n = j->normal + 3 * v;
         double q[3], d[3];
         int32_t triangle;
-        j->out[v] = NAN;
+        j->out[v] = (double)NAN;
         if (!(vec_norm(n) > 0)) continue;
         double mm = nearest_point(j->to, p, q, &triangle);
         if (j->border[triangle]) continue;

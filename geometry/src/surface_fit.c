@@ -134,7 +134,7 @@ static double rms_of(const pair *p, int32_t count, double limit, int32_t *used)
 
 static bool iterate(fit_job *j, int32_t count, surface_fit *fit, err *e)
 {
-    for (double length = INFINITY;; fit->iterations++) {
+    for (double length = HUGE_VAL;; fit->iterations++) {
         double half, limit;
         rigid move;
         parallel_for(count, 256, pair_up, j);

@@ -94,7 +94,7 @@ static void a_larger_sphere_lies_in_front_and_a_smaller_behind(void **state)
 static void the_summary_counts_what_is_selected(void **state)
 {
     (void)state;
-    const double d[] = {-3, 1.5, 0.5, NAN, 100, 0.25, -0.75, 1, 2, -4, 0.1, 0.2};
+    const double d[] = {-3, 1.5, 0.5, (double)NAN, 100, 0.25, -0.75, 1, 2, -4, 0.1, 0.2};
     const uint8_t in[] = {1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1};
     distance_stats s = distance_summary(d, in, 1, 12);
     assert_int_equal(s.count, 10);
