@@ -18,8 +18,11 @@ bodies bodies_build(void);
 void bodies_free(bodies *b);
 
 double body_skin(const bodies *b, const double p[3]);
-bool body_skin_fold(const double p[3]);                   /* in the groove between the lips or in a nostril */
+bool body_skin_fold(const double p[3]);                   /* in a nostril */
 double skin_lid_line(double x);                           /* height of the line between the lids */
+double skin_lip_line(double x);                           /* between the lips: the tissue is parted there */
+double skin_lip_top(double x);                            /* upper border of the vermilion */
+double skin_lip_bottom(double x);                         /* and the lower one */
 double body_skull(const bodies *b, const double p[3]);    /* no teeth, no mandible */
 double body_mandible(const bodies *b, const double p[3]); /* no teeth */
 

@@ -76,7 +76,8 @@ static double skin_size(const double p[3])
     double brows = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 30, -88, 35, 22, 10, 6);
     double fine = fmin(fmin(mouth, nose), fmin(fmin(eyes, brows + 4), ears + 3));
     double face = fmax(p[1] + 40, 0) * 0.03;
-    return sdf_clamp(1.3 + 0.08 * fmax(fine, 0) + face, 1.3, 4.5);
+    /* the lips have the smallest relief */
+    return sdf_clamp(1.3 + 0.08 * fmax(fine, 0) + face, 1.3, 4.5) - 0.3 * sdf_step(4, -2, mouth);
 }
 
 static double bone_size(const double p[3])

@@ -195,13 +195,13 @@ void body_skin_tubes(tube *t)
     static const double wall[][4] = {
         {5.5, -83.5, 19, 5.8}, {6.3, -87.2, 6, 6.2}, {7, -92, -7, 7.0}, {8.2, -95.5, -16, 7.2}};
     t[WALL] = tube_round(wall, COUNT(wall));
-    static const double upper[][4] = {{-5, -95.3, -46.3, 4.8}, {0, -95.1, -46.6, 4.8},
-                                      {5, -95.3, -46.3, 4.8},  {11, -93.5, -46.9, 4.2},
-                                      {17, -90.4, -48.1, 3.1}, {24, -85.8, -50.3, 1.5}};
+    static const double upper[][4] = {{-5, -95.1, -46.2, 4.7}, {0, -94.9, -46.5, 4.6},
+                                      {5, -95.1, -46.2, 4.7},  {11, -93.0, -46.8, 4.2},
+                                      {17, -89.9, -48.0, 3.2}, {24, -85.6, -50.0, 1.6}};
     t[UPPER_LIP] = tube_round(upper, COUNT(upper));
-    static const double lower[][4] = {{-6, -93.0, -55.0, 5.4}, {0, -93.3, -55.1, 5.4},
-                                      {6, -93.0, -55.0, 5.4},  {12, -90.9, -54.4, 4.8},
-                                      {18, -88, -53.0, 3.4},   {24, -85.2, -51.0, 1.6}};
+    static const double lower[][4] = {{-6, -93.2, -54.5, 5.4}, {0, -93.5, -54.6, 5.4},
+                                      {6, -93.2, -54.5, 5.4},  {12, -91.3, -54.1, 4.8},
+                                      {18, -88.4, -53.3, 3.5}, {24, -85.4, -51.6, 1.7}};
     t[LOWER_LIP] = tube_round(lower, COUNT(lower));
     static const double muscle[][4] = {
         {49, 14, -32, 6}, {44, 8, -60, 6.5}, {34.5, -6, -95, 6.5}, {24, -15, -125, 6}, {14, -19.5, -155, 6}};
@@ -283,19 +283,40 @@ static double nostrils(const double p[3])
     return sdf_ellipsoid_turned(p, at, semi, 0.1, -0.35, -0.15);
 }
 
-/* Height of the line between the lips: straight from stomion to cheilion, where the tissue is parted too. */
-static double lip_line(double x)
+double skin_lip_line(double x)
 {
-    return -50.2 - 0.4 * x / 25;
+    return -50.2 - 0.6 * (x / 25) * (x / 25);
+}
+double skin_lip_top(double x)
+{
+    double arch = fmax(1 - (x / 25) * (x / 25), 0);
+    return skin_lip_line(x) + 7.6 * pow(arch, 0.8) - 1.2 * exp(-x * x / 7);
+}
+double skin_lip_bottom(double x)
+{
+    double arch = fmax(1 - (x / 25) * (x / 25), 0);
+    return skin_lip_line(x) - 8.6 * pow(arch, 0.75);
 }
 
-/* The fissure that shows between the closed lips: a sheet that ends `back`, so that it does not open the
- * mouth. */
-static double mouth_groove(const double p[3])
+static double bump(double x, double width)
 {
-    double x = p[0], half = 0.35 + 0.2 * sdf_step(26, 18, x);
-    double back = -92.8 + 9.2 * (x / 25) * (x / 25);
-    return fmax(fmax(fabs(p[2] - lip_line(x)) - half, p[1] - back), x - 25);
+    return exp(-0.5 * (x / width) * (x / width));
+}
+
+/* The lips touch: between them is a groove no deeper than they are round, so that nothing overhangs. */
+static double lips(const bodies *b, const double p[3], double d)
+{
+    /* the lower lip meets the upper one in a crease and the chin in a soft fold */
+    d = tube_union(d, &b->skin[UPPER_LIP], p, 3);
+    d = tube_union(d, &b->skin[LOWER_LIP], p, sdf_mix(5, 0.8, sdf_step(-59, -53, p[2])));
+    double x = p[0], z = p[2];
+    if (p[1] > -75 || d < -8 || d > 8 || z < -68 || z > -26) return d;
+    double inner = 1 - sdf_step(16, 25, x);
+    d += 0.6 * (1 - sdf_step(14, 25.5, x)) * bump(z - skin_lip_line(x), 0.9);
+    d -= inner * (0.25 * bump(z - skin_lip_top(x), 1.3) + 0.15 * bump(z - skin_lip_bottom(x), 1.4));
+    d += 0.9 * bump(x - 26, 1.8) * bump(z + 50.8, 1.8);
+    double philtrum = sdf_step(-44, -41, z) * (1 - sdf_step(-33, -28, z)), out = 3.6 - 0.08 * (z + 43);
+    return d + philtrum * (0.4 * bump(x, 2) - 0.4 * bump(x - out, 1.7));
 }
 
 static double bare_lids(const bodies *b, const double p[3])
@@ -331,11 +352,7 @@ double body_skin(const bodies *b, const double point[3])
         d = eyes(b, p, d);
         d = sdf_union(d, nose(b, p), 6);
         d = sdf_cut(d, nostrils(p), 1.8);
-        d = tube_union(d, &b->skin[UPPER_LIP], p, 2.6);
-        d = tube_union(d, &b->skin[LOWER_LIP], p, 3.2);
-        static const double philtrum_a[3] = {0, -99.8, -31}, philtrum_b[3] = {0, -102.3, -41};
-        d = sdf_cut(d, sdf_cone(p, philtrum_a, 2.0, philtrum_b, 3.0), 3);
-        d = sdf_cut(d, mouth_groove(p), 1.8);
+        d = lips(b, p, d);
     } else {
         d = sdf_union(d, ear(b, p), 6);
     }
@@ -345,5 +362,5 @@ double body_skin(const bodies *b, const double point[3])
 bool body_skin_fold(const double point[3])
 {
     double p[3] = {fabs(point[0]), point[1], point[2]};
-    return p[1] < -80 && (mouth_groove(p) < 0.9 || nostrils(p) < 0.9);
+    return p[1] < -80 && nostrils(p) < 0.9;
 }

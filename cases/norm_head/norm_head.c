@@ -250,7 +250,7 @@ static bool onto_mesh(const surface *s, place_on on, const place *list, int coun
     return true;
 }
 
-/* The groove between the lips and the nostrils of the mean head: their walls are thin by nature. */
+/* The nostrils of the mean head: their walls are thin by nature. */
 static bool *skin_folds(const surface *skin)
 {
     bool *fold = NEW_ARRAY(bool, skin->vertex_count);

@@ -12,9 +12,7 @@ static void blend(double rgb[3], const double to[3], double share)
 static double vermilion(double x, double y, double z)
 {
     if (y > -78) return 0;
-    double t = fmin(x / 24.5, 1), arch = 1 - t * t;
-    double top = -50.4 + 7.6 * pow(arch, 0.75) - 1.1 * exp(-x * x / 8);
-    double bottom = -50.6 - 8.6 * pow(arch, 0.7);
+    double top = skin_lip_top(x), bottom = skin_lip_bottom(x);
     return (1 - sdf_step(top - 0.8, top + 0.6, z)) * sdf_step(bottom - 0.6, bottom + 1.2, z) *
            (1 - sdf_step(23, 25, x));
 }
