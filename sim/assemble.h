@@ -28,6 +28,8 @@ typedef struct assembly {
     int32_t shared_count;
     int32_t *shared_block, *shared_slot; /* block = 9 edge + entry */
     double *element_energy, *element_force, *element_block, *edge_block;
+    /* averaged volume changes: [node_count] each, else NULL */
+    double average_lambda_kpa, *node_volume, *node_pressure;
 } assembly;
 
 /* Takes *el over (leaves it empty) on success. coupling[2*coupling_count]: further pairs of nodes, low <

@@ -32,6 +32,7 @@ typedef struct material {
     material_model model;
     double young_kpa, poisson;
     double mu_kpa, lambda_kpa;
+    double pressure_kpa;        /* adds pressure_kpa (J - 1) to snhlog and snh; material_make: 0 */
     double target[9], target_j; /* A and its determinant */
 } material;
 

@@ -2,6 +2,7 @@
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
+#include "sim/src/average.h"
 #include "sim/src/svd3.h"
 #include <assert.h>
 #include <float.h>
@@ -162,6 +163,7 @@ bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int3
 void assembly_free(assembly *a)
 {
     elements_free(&a->el);
+    average_free(a);
     free(a->node_start);
     free(a->node_source);
     free(a->edge_node);
@@ -199,9 +201,14 @@ static void energy_body(int64_t begin, int64_t end, void *context)
     for (int64_t t = begin; t < end; t++) {
         double x_e[12];
         element_nodes(a, t, job->x, x_e);
+        material under;
+        if (a->node_pressure && job->force) {
+            under = average_material(a, t);
+            element_energy(&under, a->el.gradient + 12 * t, a->el.volume[t], x_e, a->element_force + 12 * t);
+        }
         a->element_energy[t] =
             element_energy(&a->el.materials[a->el.material[t]], a->el.gradient + 12 * t, a->el.volume[t], x_e,
-                           job->force ? a->element_force + 12 * t : NULL);
+                           job->force && !a->node_pressure ? a->element_force + 12 * t : NULL);
     }
 }
 
@@ -220,9 +227,10 @@ static void force_body(int64_t begin, int64_t end, void *context)
 double assembly_energy(assembly *a, const double *x, double *force)
 {
     element_job job = {.a = a, .x = x, .force = force};
+    double average = a->node_pressure ? average_energy(a, x) : 0;
     parallel_for(a->tet_count, ELEMENT_GRAIN, energy_body, &job);
     if (force) parallel_for(a->node_count, NODE_GRAIN, force_body, &job);
-    double sum = 0, carry = 0; /* Kahan: Newton compares energies to the last digits */
+    double sum = average, carry = 0; /* Kahan: Newton compares energies to the last digits */
     for (int32_t t = 0; t < a->tet_count; t++) {
         double y = a->element_energy[t] - carry, next = sum + y;
         if (!isfinite(next)) return HUGE_VAL;
@@ -239,8 +247,9 @@ static void stiffness_body(int64_t begin, int64_t end, void *context)
     for (int64_t t = begin; t < end; t++) {
         double x_e[12];
         element_nodes(a, t, job->x, x_e);
-        element_stiffness(&a->el.materials[a->el.material[t]], a->el.gradient + 12 * t, a->el.volume[t], x_e,
-                          job->how, a->element_block + 9 * ELEMENT_PAIRS * t);
+        material m = a->node_pressure ? average_material(a, t) : a->el.materials[a->el.material[t]];
+        element_stiffness(&m, a->el.gradient + 12 * t, a->el.volume[t], x_e, job->how,
+                          a->element_block + 9 * ELEMENT_PAIRS * t);
     }
 }
 
@@ -265,8 +274,10 @@ static void edge_body(int64_t begin, int64_t end, void *context)
 void assembly_stiffness(assembly *a, const double *x, projection how)
 {
     element_job job = {.a = a, .x = x, .how = how};
+    if (a->node_pressure) average_energy(a, x);
     parallel_for(a->tet_count, ELEMENT_GRAIN, stiffness_body, &job);
     parallel_for(a->edge_count, EDGE_GRAIN, edge_body, &job);
+    if (a->node_pressure) average_stiffness(a, x);
 }
 
 /* The block of edge i between the directions of its nodes: B_u K B_v^T, rows of B the unit vectors. */
@@ -338,7 +349,7 @@ static double element_noise(const assembly *a, int32_t t, const double *x, doubl
     for (int c = 0; c < 12; c++) reach = fmax(reach, fabs(x_e[c]));
     for (int k = 0; k < 4; k++) g = fmax(g, vec_norm(a->el.gradient + 12 * (size_t)t + 3 * k));
     const struct material *m = &a->el.materials[a->el.material[t]];
-    *stiffness = (2 * m->mu_kpa + fabs(m->lambda_kpa)) * a->el.volume[t];
+    *stiffness = (2 * m->mu_kpa + fabs(m->lambda_kpa) + a->average_lambda_kpa) * a->el.volume[t];
     *steepest = g;
     return 4 * DBL_EPSILON * (1 + reach * g);
 }

@@ -78,17 +78,17 @@ material_terms material_terms_at(const material *m, const double F[9])
     switch (m->model) {
     case MATERIAL_SNH_LOG: { /* lambda (J - alpha) = lambda (J - 1) - 3/4 mu */
         double w = 1 / (i3 + 4);
-        t.psi = mu / 2 * (i3 - log1p(i3 / 4)) + j1 * (la / 2 * j1 - 0.75 * mu);
+        t.psi = mu / 2 * (i3 - log1p(i3 / 4)) + j1 * (la / 2 * j1 - 0.75 * mu + m->pressure_kpa);
         t.psi_i = mu / 2 * (1 - w);
         t.psi_ii = mu / 2 * w * w;
-        t.psi_j = la * j1 - 0.75 * mu;
+        t.psi_j = la * j1 - 0.75 * mu + m->pressure_kpa;
         t.psi_jj = la;
         break;
     }
     case MATERIAL_SNH:
-        t.psi = mu / 2 * i3 + j1 * (la / 2 * j1 - mu);
+        t.psi = mu / 2 * i3 + j1 * (la / 2 * j1 - mu + m->pressure_kpa);
         t.psi_i = mu / 2;
-        t.psi_j = la * j1 - mu;
+        t.psi_j = la * j1 - mu + m->pressure_kpa;
         t.psi_jj = la;
         break;
     case MATERIAL_NH_LN: {
