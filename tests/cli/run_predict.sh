@@ -45,5 +45,22 @@ PY
 grep -q reused "$work/again.txt" || fail "the prepared case was not reused"
 cmp "$work/out/skin_after.ply" "$work/again/skin_after.ply" || fail "the same plan gave another face"
 cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave another tissue"
+# the profile is measured, and the outcome compares with itself as equal and with the face before as changed
+"$gnathos" ceph "$work/out" >"$work/ceph.txt" && grep -q planned "$work/ceph.txt" || fail "no cephalometry"
+"$gnathos" compare "$work/out" "$work/again" --json >"$work/same.json"
+"$gnathos" compare "$work/out" "$work/out/skin_before.ply" --json >"$work/before.json"
+"$gnathos" compare "$work/out" "$work/again" -o "$work/compared" $pictures >/dev/null
+[ -s "$work/compared/comparison.vtp" ] && [ -s "$work/compared/regions.csv" ] || fail "compare wrote no files"
+/usr/bin/python3 - "$work" <<'PY'
+import json, os, sys
+same, before = (json.load(open(os.path.join(sys.argv[1], n + ".json"))) for n in ("same", "before"))
+rows = same["regions"]["prediction"]
+assert len(rows) == 8 and all(r["points"] > 100 and r["rms_mm"] < 1e-9 for r in rows.values()), rows
+assert same["alignment"]["turn_deg"] < 1e-6 and same["closer_than_both_trivial"]["face"]
+assert before["regions"]["no_change"]["face"]["rms_mm"] < 0.01, before["regions"]["no_change"]["face"]
+assert before["regions"]["prediction"]["face"]["rms_mm"] > 0.2 and not before["closer_than_both_trivial"]["face"]
+parts = [rows[n]["points"] for n in ("nose", "upper lip", "lower lip", "chin", "left cheek", "right cheek")]
+assert sum(parts) == rows["face"]["points"]
+PY
 # an output in use is not replaced unasked
 if "$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" >/dev/null 2>&1; then fail "an old output was replaced"; fi
