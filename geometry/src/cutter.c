@@ -34,42 +34,52 @@ static double turn(const double *a, const double *b, const double *c, const doub
     return vec_dot(w, n);
 }
 
-/* Ear clipping; the polygon runs counter-clockwise seen against its normal. tri[3*(nodes-2)]. */
-static void clip_ears(int nodes, const double *xyz, int32_t *tri)
+/* Area over squared longest edge of a triangle seen against n; <= 0 where it is turned over. */
+static double fatness(const double *a, const double *b, const double *c, const double n[3])
 {
-    double n[3];
+    double longest = fmax(vec_distance(a, b), fmax(vec_distance(b, c), vec_distance(c, a)));
+    return longest > 0 ? turn(a, b, c, n) / (longest * longest) : 0;
+}
+
+/* The triangulation of a simple polygon whose leanest triangle is fattest: corners in a row do not become a sliver,
+ * which the offset of the cutter could turn over. The polygon runs counter-clockwise seen against its normal; triangles
+ * that all keep that turn cannot overlap. Dynamic programming over chains of corners, for a handful of them. Writes
+ * tri[3*(nodes-2)]. */
+static void triangulate(int nodes, const double *xyz, int32_t *tri)
+{
+    double n[3], *best = NEW_ARRAY(double, nodes * nodes); /* of the polygon i..j closed by the chord j, i */
+    int *apex = NEW_ARRAY(int, nodes * nodes), *stack = NEW_ARRAY(int, 4 * nodes), top = 0, made = 0;
     polygon_normal(nodes, xyz, n);
-    int *left = NEW_ARRAY(int, nodes), count = nodes, made = 0;
-    for (int i = 0; i < nodes; i++) left[i] = i;
-    while (count > 3) {
-        int best = -1;
-        double best_turn = 0;
-        for (int i = 0; i < count; i++) { /* the fattest ear keeps slivers away */
-            const int a = left[(i + count - 1) % count], b = left[i], c = left[(i + 1) % count];
-            double t = turn(xyz + 3 * a, xyz + 3 * b, xyz + 3 * c, n);
-            bool empty = t > 0;
-            for (int k = 0; empty && k < count; k++) {
-                const int q = left[k];
-                if (q == a || q == b || q == c) continue;
-                empty = !(turn(xyz + 3 * a, xyz + 3 * b, xyz + 3 * q, n) >= 0 &&
-                          turn(xyz + 3 * b, xyz + 3 * c, xyz + 3 * q, n) >= 0 &&
-                          turn(xyz + 3 * c, xyz + 3 * a, xyz + 3 * q, n) >= 0);
-            }
-            if (empty && t > best_turn) {
-                best = i;
-                best_turn = t;
+    for (int i = 0; i + 1 < nodes; i++) best[i * nodes + i + 1] = HUGE_VAL;
+    for (int span = 2; span < nodes; span++)
+        for (int i = 0; i + span < nodes; i++) {
+            int j = i + span;
+            best[i * nodes + j] = -HUGE_VAL;
+            for (int k = i + 1; k < j; k++) {
+                double lean = fmin(fatness(xyz + 3 * i, xyz + 3 * k, xyz + 3 * j, n),
+                                   fmin(best[i * nodes + k], best[k * nodes + j]));
+                if (!(lean > best[i * nodes + j])) continue;
+                best[i * nodes + j] = lean;
+                apex[i * nodes + j] = k;
             }
         }
-        assert(best >= 0); /* else not simple */
-        tri[3 * made] = left[(best + count - 1) % count];
-        tri[3 * made + 1] = left[best];
-        tri[3 * made + 2] = left[(best + 1) % count];
+    assert(best[nodes - 1] > 0); /* else not simple */
+    stack[top++] = 0;
+    stack[top++] = nodes - 1;
+    while (top) {
+        int j = stack[--top], i = stack[--top], k = apex[i * nodes + j];
+        if (j - i < 2) continue;
+        const int corner[3] = {i, k, j};
+        for (int c = 0; c < 3; c++) tri[3 * made + c] = corner[c];
         made++;
-        for (int i = best; i + 1 < count; i++) left[i] = left[i + 1];
-        count--;
+        stack[top++] = i;
+        stack[top++] = k;
+        stack[top++] = k;
+        stack[top++] = j;
     }
-    for (int k = 0; k < 3; k++) tri[3 * made + k] = left[k];
-    free(left);
+    free(best);
+    free(apex);
+    free(stack);
 }
 
 cutter cutter_stack(int levels, int nodes, const double *xyz, const uint8_t *side_moves, bool first_cap_moves,
@@ -80,14 +90,14 @@ cutter cutter_stack(int levels, int nodes, const double *xyz, const uint8_t *sid
     cutter c = {.body = surface_new(levels * nodes, count), .moves = NEW_ARRAY(uint8_t, count)};
     for (int i = 0; i < 3 * levels * nodes; i++) c.body.xyz[i] = xyz[i];
     int32_t *tri = c.body.tri;
-    clip_ears(nodes, xyz, tri);
+    triangulate(nodes, xyz, tri);
     for (int32_t i = 0; i < cap; i++) { /* the first cap looks away from the stack */
         int32_t keep = tri[3 * i + 1];
         tri[3 * i + 1] = tri[3 * i + 2];
         tri[3 * i + 2] = keep;
         c.moves[t++] = first_cap_moves;
     }
-    clip_ears(nodes, xyz + 3 * (size_t)(levels - 1) * nodes, tri + 3 * (size_t)t);
+    triangulate(nodes, xyz + 3 * (size_t)(levels - 1) * nodes, tri + 3 * (size_t)t);
     for (int32_t i = 0; i < cap; i++) {
         for (int k = 0; k < 3; k++) tri[3 * t + k] += (levels - 1) * nodes;
         c.moves[t++] = last_cap_moves;
