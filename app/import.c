@@ -36,47 +36,6 @@ bool import_is_mesh_name(const char *text)
     return false;
 }
 
-static int32_t find_root(int32_t *parent, int32_t v)
-{
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-}
-
-static int compare_edges(const void *a, const void *b)
-{
-    const int32_t *x = a, *y = b;
-    if (x[0] != y[0]) return x[0] < y[0] ? -1 : 1;
-    return (x[1] > y[1]) - (x[1] < y[1]);
-}
-
-/* Groups of open edges that share vertices. */
-static int32_t count_holes(const surface *s)
-{
-    size_t count = 3 * (size_t)s->triangle_count;
-    int32_t *edge = NEW_ARRAY(int32_t, 2 * count), *parent = NEW_ARRAY(int32_t, s->vertex_count), holes = 0;
-    uint8_t *touched = NEW_ARRAY(uint8_t, s->vertex_count);
-    for (int32_t v = 0; v < s->vertex_count; v++) parent[v] = v;
-    for (size_t i = 0; i < count; i++) {
-        int32_t a = s->tri[i], b = s->tri[i % 3 == 2 ? i - 2 : i + 1];
-        edge[2 * i] = a < b ? a : b;
-        edge[2 * i + 1] = a < b ? b : a;
-    }
-    qsort(edge, count, 2 * sizeof *edge, compare_edges);
-    for (size_t i = 0, j; i < count; i = j) {
-        for (j = i + 1; j < count && !compare_edges(edge + 2 * i, edge + 2 * j); j++) {}
-        if (j - i != 1) continue;
-        int32_t a = find_root(parent, edge[2 * i]), b = find_root(parent, edge[2 * i + 1]);
-        int joined = (touched[edge[2 * i]] != 0) + (touched[edge[2 * i + 1]] != 0);
-        if (a != b) parent[a] = b;
-        holes += joined == 0 ? 1 : joined == 2 && a != b ? -1 : 0;
-        touched[edge[2 * i]] = touched[edge[2 * i + 1]] = 1;
-    }
-    free(edge);
-    free(parent);
-    free(touched);
-    return holes;
-}
-
 static bool measure(import_part *part, err *e)
 {
     surface *s = &part->mesh;
@@ -87,7 +46,7 @@ static bool measure(import_part *part, err *e)
     part->diagonal_mm = vec_distance(low, high);
     part->area_mm2 = surface_area(s);
     surface_edge_census(s, &part->open_edges, &part->crowded_edges);
-    part->holes = part->open_edges ? count_holes(s) : 0;
+    part->holes = part->open_edges ? surface_hole_count(s) : 0;
     part->volume_mm3 = part->open_edges ? 0 : surface_volume(s);
     part->components = surface_components(s, &component);
     free(component);

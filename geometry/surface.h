@@ -27,6 +27,7 @@ void surface_transform(surface *s, const rigid *a);
 void surface_flip(surface *s); /* reverses the orientation */
 /* Edges used by one triangle, and edges used by more than two. */
 void surface_edge_census(const surface *s, int32_t *boundary_edges, int32_t *nonmanifold_edges);
+int32_t surface_hole_count(const surface *s); /* groups of boundary edges that share vertices */
 /* Component number per triangle [triangle_count] (shared vertices connect), numbered by first triangle; returns
  * the count; caller frees. */
 int32_t surface_components(const surface *s, int32_t **component);

@@ -128,7 +128,8 @@ static int compare_edges(const void *a, const void *b)
     return (x[1] > y[1]) - (x[1] < y[1]);
 }
 
-void surface_edge_census(const surface *s, int32_t *boundary_edges, int32_t *nonmanifold_edges)
+/* Every edge of every triangle, lower vertex first, sorted; [2*3*triangle_count], the caller frees. */
+static int32_t *sorted_edges(const surface *s)
 {
     size_t count = 3 * (size_t)s->triangle_count;
     int32_t *edge = NEW_ARRAY(int32_t, 2 * count);
@@ -138,6 +139,13 @@ void surface_edge_census(const surface *s, int32_t *boundary_edges, int32_t *non
         edge[2 * i + 1] = a < b ? b : a;
     }
     qsort(edge, count, 2 * sizeof *edge, compare_edges);
+    return edge;
+}
+
+void surface_edge_census(const surface *s, int32_t *boundary_edges, int32_t *nonmanifold_edges)
+{
+    size_t count = 3 * (size_t)s->triangle_count;
+    int32_t *edge = sorted_edges(s);
     *boundary_edges = *nonmanifold_edges = 0;
     for (size_t i = 0, j; i < count; i = j) {
         for (j = i + 1; j < count && !compare_edges(edge + 2 * i, edge + 2 * j); j++) {}
@@ -151,6 +159,27 @@ static int32_t find_root(int32_t *parent, int32_t v)
 {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
+}
+
+int32_t surface_hole_count(const surface *s)
+{
+    size_t count = 3 * (size_t)s->triangle_count;
+    int32_t *edge = sorted_edges(s), *parent = NEW_ARRAY(int32_t, s->vertex_count), holes = 0;
+    uint8_t *touched = NEW_ARRAY(uint8_t, s->vertex_count);
+    for (int32_t v = 0; v < s->vertex_count; v++) parent[v] = v;
+    for (size_t i = 0, j; i < count; i = j) {
+        for (j = i + 1; j < count && !compare_edges(edge + 2 * i, edge + 2 * j); j++) {}
+        if (j - i != 1) continue;
+        int32_t a = find_root(parent, edge[2 * i]), b = find_root(parent, edge[2 * i + 1]);
+        int joined = (touched[edge[2 * i]] != 0) + (touched[edge[2 * i + 1]] != 0);
+        if (a != b) parent[a] = b;
+        holes += joined == 0 ? 1 : joined == 2 && a != b ? -1 : 0;
+        touched[edge[2 * i]] = touched[edge[2 * i + 1]] = 1;
+    }
+    free(edge);
+    free(parent);
+    free(touched);
+    return holes;
 }
 
 int32_t surface_components(const surface *s, int32_t **component)
