@@ -1,9 +1,7 @@
 /* gnathos render OUT: the pictures of an outcome, drawn again. */
 #include "app/command.h"
+#include "app/outcome_read.h"
 #include "app/pictures.h"
-#include "geometry/json_file.h"
-#include "geometry/mem.h"
-#include "geometry/mesh_file.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -58,13 +56,10 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 }
 
 typedef struct drawn { /* what the pictures need of an outcome */
-    json_file record;
-    char name[256], plan[256], hash[80];
+    outcome_record record;
     surface skin_before, skin_after;
     segments at_rest;
     rigid move[SEGMENT_COUNT];
-    landmarks points;
-    head_frame frame;
 } drawn;
 
 static const char *text_of(const json_t *o, const char *key)
@@ -73,59 +68,11 @@ static const char *text_of(const json_t *o, const char *key)
     return t ? t : "";
 }
 
-static bool read_landmarks(drawn *d, err *e)
-{
-    size_t i;
-    json_t *item;
-    json_array_foreach (json_object_get(d->record.root, "landmarks"), i, item) {
-        char pointer[64];
-        double p[3];
-        snprintf(pointer, sizeof pointer, "/landmarks/%zu/before_lps_mm", i);
-        if (!json_file_vec3(&d->record, json_object_get(item, "before_lps_mm"), pointer, p, e)) return false;
-        landmarks_set(&d->points, text_of(item, "label"), p);
-    }
-    return head_frame_from_landmarks(&d->points, &d->frame, e);
-}
-
-/* Segments lie in the folder where the plan puts them; the pictures want them at rest and their moves. */
-static bool read_segments(const char *folder, drawn *d, err *e)
-{
-    const json_t *moved = json_object_get(json_object_get(d->record.root, "plan"), "segments");
-    for (int s = 0; s < SEGMENT_COUNT; s++) {
-        const char *name = segment_name((segment_id)s);
-        char path[1200];
-        struct stat there;
-        d->move[s] = rigid_identity();
-        snprintf(path, sizeof path, "%s/segment_%s.ply", folder, name);
-        if (stat(path, &there)) continue;
-        if (!mesh_read_surface(path, MESH_SPACE_FROM_FILE, &d->at_rest.part[s], NULL, e)) return false;
-        const json_t *matrix = json_object_get(json_object_get(moved, name), "matrix");
-        double m[16];
-        if (!matrix) continue;
-        for (size_t i = 0; i < 16; i++) m[i] = json_number_value(json_array_get(matrix, i));
-        if (!rigid_from_matrix(m, &d->move[s], e)) return err_prefix(e, "%s: plan.segments.%s", d->record.path, name);
-        rigid back = rigid_inverse(&d->move[s]);
-        surface_transform(&d->at_rest.part[s], &back);
-    }
-    return true;
-}
-
 static bool read_outcome(const char *folder, drawn *d, err *e)
 {
-    char path[1200];
-    snprintf(path, sizeof path, "%s/outcome.json", folder);
-    if (!json_file_read(path, &d->record, e)) return false;
-    const json_t *root = d->record.root;
-    if (!json_is_true(json_object_get(json_object_get(root, "solve"), "solved")))
-        return json_file_refuse(&d->record, "/solve", e, "the solve did not reach equilibrium: there is no face to draw");
-    snprintf(d->name, sizeof d->name, "%s", text_of(root, "case"));
-    snprintf(d->hash, sizeof d->hash, "%s", text_of(root, "case_hash"));
-    snprintf(d->plan, sizeof d->plan, "%s", text_of(json_object_get(root, "plan"), "name"));
-    snprintf(path, sizeof path, "%s/skin_before.ply", folder);
-    if (!mesh_read_surface(path, MESH_SPACE_FROM_FILE, &d->skin_before, NULL, e)) return false;
-    snprintf(path, sizeof path, "%s/skin_after.ply", folder);
-    return mesh_read_surface(path, MESH_SPACE_FROM_FILE, &d->skin_after, NULL, e) && read_landmarks(d, e) &&
-           read_segments(folder, d, e);
+    return outcome_record_read(folder, &d->record, e) && outcome_skin_read(folder, false, &d->skin_before, e) &&
+           outcome_skin_read(folder, true, &d->skin_after, e) &&
+           outcome_segments_read(folder, &d->record, &d->at_rest, d->move, e);
 }
 
 int command_render(int argc, char **argv)
@@ -143,15 +90,16 @@ int command_render(int argc, char **argv)
     if (ok && mkdir(folder, 0777) && errno != EEXIST)
         ok = err_at(&e, ERR_RESOURCE, folder, 0, NULL, "cannot be made: %s", strerror(errno));
     if (ok) {
-        pictures_input pictures = {.case_name = d.name,
-                                   .plan_text = d.plan,
-                                   .hash = d.hash,
+        const json_t *root = d.record.file.root;
+        pictures_input pictures = {.case_name = text_of(root, "case"),
+                                   .plan_text = text_of(json_object_get(root, "plan"), "name"),
+                                   .hash = text_of(root, "case_hash"),
                                    .skin_before = &d.skin_before,
                                    .skin_after = &d.skin_after,
                                    .at_rest = &d.at_rest,
                                    .move = d.move,
-                                   .points = &d.points,
-                                   .frame = &d.frame,
+                                   .points = &d.record.before,
+                                   .frame = &d.record.frame,
                                    .width = in.width,
                                    .height = in.height,
                                    .skin_opacity = in.opacity,
@@ -159,10 +107,9 @@ int command_render(int argc, char **argv)
         command_progress_at(&in.common, "drawing the pictures", -1);
         ok = pictures_write(&pictures, folder, !in.common.quiet, &e);
     }
-    json_file_free(&d.record);
+    outcome_record_free(&d.record);
     surface_free(&d.skin_before);
     surface_free(&d.skin_after);
     segments_free(&d.at_rest);
-    landmarks_free(&d.points);
     return ok ? 0 : command_fail(&e);
 }
