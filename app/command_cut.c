@@ -60,7 +60,7 @@ static bool write_bone(const surface *s, const char *name, const output_dir *d, 
         char file[64];
         snprintf(file, sizeof file, "%s.%s", name, kinds[k]);
         char *path = output_dir_file(d, file);
-        bool ok = mesh_write_surface(s, NULL, path, e);
+        bool ok = mesh_write_surface(s, path, e);
         free(path);
         if (!ok) return false;
     }

@@ -208,7 +208,7 @@ static bool write_case(const import_params *p, const import_result *r, const cha
         snprintf(file, sizeof file, "%s.ply", word);
         snprintf(path, sizeof path, "%s/%s", folder, file);
         json_object_set_new(surfaces, word, json_string(file));
-        good = mesh_write_surface(&r->part[i].mesh, NULL, path, e);
+        good = mesh_write_surface(&r->part[i].mesh, path, e);
     }
     snprintf(path, sizeof path, "%s/landmarks.mrk.json", folder);
     if (good && r->has_points) good = landmarks_write(&r->points, path, e);

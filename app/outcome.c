@@ -181,7 +181,7 @@ static bool write_surface(const surface *s, const output_dir *dir, const char *n
     char file[64];
     snprintf(file, sizeof file, "%s%s", name, extension);
     char *path = output_dir_file(dir, file);
-    bool ok = mesh_write_surface(s, NULL, path, e);
+    bool ok = mesh_write_surface(s, path, e);
     free(path);
     return ok;
 }

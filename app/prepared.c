@@ -10,7 +10,7 @@
 #include <time.h>
 
 /* Raise it whenever the way from case to tissue changes: old files are then made anew. */
-static const double format = 1;
+static const double format = 2;
 
 static const double skin_reach_mm = 2; /* of a skin vertex from the tets that may carry it */
 
@@ -53,19 +53,23 @@ static void put_surface(pack_file *f, const char *name, const surface *s)
     pack_put(f, key, s->xyz, 3 * (size_t)s->vertex_count * sizeof *s->xyz);
     snprintf(key, sizeof key, "%.24s.tri", name);
     pack_put(f, key, s->tri, 3 * (size_t)s->triangle_count * sizeof *s->tri);
+    snprintf(key, sizeof key, "%.24s.rgb", name);
+    if (s->rgb) pack_put(f, key, s->rgb, 3 * (size_t)s->vertex_count);
 }
 
 static bool take_surface(const pack_file *f, const char *name, surface *s)
 {
     char key[PACK_NAME_SIZE];
-    size_t vertices = 0, triangles = 0;
+    size_t vertices = 0, triangles = 0, colours = 0;
     snprintf(key, sizeof key, "%.24s.xyz", name);
     s->xyz = pack_take(f, key, 3 * sizeof *s->xyz, &vertices);
     snprintf(key, sizeof key, "%.24s.tri", name);
     s->tri = pack_take(f, key, 3 * sizeof *s->tri, &triangles);
+    snprintf(key, sizeof key, "%.24s.rgb", name);
+    s->rgb = pack_take(f, key, 3, &colours);
     s->vertex_count = (int32_t)vertices;
     s->triangle_count = (int32_t)triangles;
-    return s->xyz && s->tri;
+    return s->xyz && s->tri && (!s->rgb || colours == vertices);
 }
 
 static void part_key(int segment, char key[PACK_NAME_SIZE])

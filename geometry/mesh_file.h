@@ -19,7 +19,7 @@ typedef enum mesh_space { MESH_SPACE_FROM_FILE, MESH_SPACE_LPS, MESH_SPACE_RAS }
 /* .ply and .off through CGAL (double, vertex numbers kept), .stl .obj .gltf .glb through assimp (float, all
  * meshes of the file, welded, because these formats repeat a vertex in every triangle or group). The result
  * is LPS; numbers are taken as mm without a guess, but glTF is in metres with +y up by definition and is
- * turned: (x, y, z) m -> 1000 (x, -z, y). Untagged files are taken as `space`, FROM_FILE meaning LPS. The
+ * turned: (x, y, z) m -> 1000 (x, -z, y). Colours of vertices are read from .ply only. Untagged files are taken as `space`, FROM_FILE meaning LPS. The
  * caller frees *out. Refuses (ERR_INPUT, with file) unknown extensions and tags, unreadable or truncated
  * files, vertex numbers out of range, coordinates that are not finite, files without triangles. report may be
  * NULL. */
@@ -30,10 +30,9 @@ bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_fi
  * twice. Unused vertices stay. Adds to the report's counts. */
 void mesh_weld(surface *s, mesh_file_report *report);
 
-/* .ply (binary little-endian, double), .stl (binary, float), .obj; tagged SPACE=LPS. rgb[3*vertex_count]
- * (0..255) may be NULL and is written to .ply only. The file appears whole or not at all. Refuses (ERR_USAGE)
- * other extensions. */
-bool mesh_write_surface(const surface *s, const uint8_t *rgb, const char *path, err *e) MUST_CHECK;
+/* .ply (binary little-endian, double), .stl (binary, float), .obj; tagged SPACE=LPS. Colours are
+ * written to .ply only. The file appears whole or not at all. Refuses (ERR_USAGE) other extensions. */
+bool mesh_write_surface(const surface *s, const char *path, err *e) MUST_CHECK;
 
 typedef struct point_array { /* a named array of doubles per node, for VTU files */
     const char *name;

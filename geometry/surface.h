@@ -11,6 +11,7 @@ typedef struct surface {
     int32_t vertex_count, triangle_count;
     double *xyz;  /* [3*vertex_count] mm */
     int32_t *tri; /* [3*triangle_count] vertex numbers */
+    uint8_t *rgb; /* [3*vertex_count] colours of the vertices, or NULL */
 } surface;
 
 surface surface_new(int32_t vertex_count, int32_t triangle_count); /* zeroed arrays */
@@ -33,7 +34,7 @@ int32_t surface_hole_count(const surface *s); /* groups of boundary edges that s
 int32_t surface_components(const surface *s, int32_t **component);
 /* Keeps triangles with keep[t] != 0 and drops unused vertices. */
 surface surface_select(const surface *s, const uint8_t *keep);
-/* Puts b after a (no welding). */
+/* Puts b after a (no welding, no colours). */
 surface surface_joined(const surface *a, const surface *b);
 
 #ifdef __cplusplus

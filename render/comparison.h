@@ -28,7 +28,8 @@ typedef struct comparison_part { /* a segment, or teeth that ride on it */
 typedef struct comparison {
     const char *case_name, *plan_text;       /* title strip; plan_text may be NULL */
     const char *case_hash;                   /* into the files' text chunks; may be NULL */
-    const surface *skin_before, *skin_after; /* both or neither NULL; the same triangles */
+    const surface *skin_before, *skin_after; /* both or neither NULL; the same triangles;
+                                                shown in their colours if they have any */
     const double
         *displacement_mm; /* [vertex_count] on skin_after, NaN: no data; NULL: distance from skin_before */
     const comparison_part *parts;

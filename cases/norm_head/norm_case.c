@@ -160,7 +160,7 @@ bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *
     const surface *const parts[] = {&h->skin, &h->skull, &h->mandible, &h->upper_teeth, &h->lower_teeth};
     for (int i = 0; i < 5; i++) {
         char *path = in_folder(folder, files[i]);
-        bool ok = mesh_write_surface(parts[i], i == 0 ? h->skin_rgb : NULL, path, e);
+        bool ok = mesh_write_surface(parts[i], path, e);
         free(path);
         if (!ok) return false;
     }

@@ -277,7 +277,7 @@ bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
     if (ok) {
         h.upper_teeth = join_teeth(upper_teeth);
         h.lower_teeth = join_teeth(lower_teeth);
-        h.skin_rgb = skin_colours(&h.skin);
+        h.skin.rgb = skin_colours(&h.skin);
         place *list = NULL;
         int count = places_find(&b, &list);
         bool *exempt = skin_folds(&h.skin);
@@ -305,7 +305,6 @@ void norm_head_free(norm_head *h)
     surface_free(&h->mandible);
     surface_free(&h->upper_teeth);
     surface_free(&h->lower_teeth);
-    free(h->skin_rgb);
     landmarks_free(&h->points);
     *h = (norm_head){0};
 }

@@ -20,8 +20,7 @@ typedef struct norm_head_params {
 } norm_head_params;
 
 typedef struct norm_head {
-    surface skin, skull, mandible, upper_teeth, lower_teeth; /* closed, outward; teeth one shell each */
-    uint8_t *skin_rgb;                                       /* [3*skin.vertex_count] */
+    surface skin, skull, mandible, upper_teeth, lower_teeth; /* closed, outward; skin coloured; teeth one shell each */
     landmarks points;
     double asked[MEASURE_COUNT], obtained[MEASURE_COUNT];
     double thinnest_mm; /* smallest distance from skin to bone or tooth */

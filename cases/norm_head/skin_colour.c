@@ -3,6 +3,8 @@
 #include "geometry/mem.h"
 #include "sdf.h"
 
+#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
 static void blend(double rgb[3], const double to[3], double share)
 {
     for (int c = 0; c < 3; c++) rgb[c] = sdf_mix(rgb[c], to[c], share);
@@ -27,6 +29,22 @@ static double brow(double x, double y, double z)
            (1 - sdf_step(0.8, 1.1, t));
 }
 
+/* Close-cropped hair: 1 well above the hairline, which runs from the forehead over the temple to the front of
+ * the ear and behind it down to the nape. The ear stays bare. */
+static double scalp(double x, double y, double z)
+{
+    static const double line[][2] = {{-110, 84}, {-85, 80}, {-68, 66},  {-55, 52}, {-42, 46}, {-30, 30},
+                                     {-20, 10},  {-8, 6},   {12, -6},   {24, -26}, {50, -44}, {120, -52}};
+    double height = line[0][1];
+    for (int i = 0; i + 1 < COUNT(line); i++)
+        if (y > line[i][0])
+            height = sdf_mix(line[i][1], line[i + 1][1],
+                             sdf_clamp((y - line[i][0]) / (line[i + 1][0] - line[i][0]), 0, 1));
+    double ear = hypot((y - 4) / 23, (z - 2) / 38);
+    double bare = x > 55 ? 1 - sdf_step(0.9, 1.15, ear) : 0;
+    return 0.62 * sdf_step(-3, 13, z - height) * (1 - bare);
+}
+
 uint8_t *skin_colours(const surface *skin)
 {
     static const double base[3] = {222, 178, 152}, lip[3] = {194, 118, 108}, cheek[3] = {222, 156, 136};
@@ -40,7 +58,7 @@ uint8_t *skin_colours(const surface *skin)
         d = hypot(x, z + 18);
         if (y < -98) blend(c, cheek, 0.4 * exp(-d * d / 120));
         blend(c, lip, vermilion(x, y, z));
-        blend(c, hair, brow(x, y, z));
+        blend(c, hair, fmax(brow(x, y, z), scalp(x, y, z)));
         if (y < -70 && x > 15 && x < 47) {
             double off = fabs(z - skin_lid_line(x));
             blend(c, lash,

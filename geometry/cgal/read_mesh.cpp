@@ -1,6 +1,7 @@
 #include "geometry/src/read_mesh.h"
 #include "geometry/cgal/guard.hpp"
 #include "geometry/mem.h"
+#include <CGAL/IO/Color.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
 #include <CGAL/Simple_cartesian.h>
@@ -52,12 +53,13 @@ bool read_mesh_polygons(const char *path, polygons *out, err *e)
         if (!in) throw refusal(ERR_INPUT, "cannot be read: " + std::string(std::strerror(errno)));
         std::vector<plain_point> points;
         std::vector<std::vector<std::size_t>> faces;
+        std::vector<CGAL::IO::Color> face_colours, colours;
         const std::string name = path;
         const bool off = name.size() > 4 && (name.back() == 'f' || name.back() == 'F');
         bool good = false;
         captured_cerr said;
         try {
-            good = !off ? CGAL::IO::read_PLY(in, points, faces)
+            good = !off ? CGAL::IO::read_PLY(in, points, faces, face_colours, colours)
                         : off_is_large_enough(in) && CGAL::IO::read_OFF(in, points, faces);
         } catch (const std::bad_alloc &) { // sizes in a broken header
         } catch (const std::length_error &) {
@@ -82,6 +84,11 @@ bool read_mesh_polygons(const char *path, polygons *out, err *e)
         p.corner = NEW_ARRAY(int64_t, corners);
         for (std::size_t v = 0; v < points.size(); v++)
             for (int c = 0; c < 3; c++) p.xyz[3 * v + c] = points[v][c];
+        if (colours.size() == points.size() && !points.empty()) {
+            p.rgb = NEW_ARRAY(uint8_t, 3 * points.size());
+            for (std::size_t v = 0; v < points.size(); v++)
+                for (std::size_t c = 0; c < 3; c++) p.rgb[3 * v + c] = colours[v][c];
+        }
         for (std::size_t f = 0; f < faces.size(); f++) {
             int64_t at = p.first[f];
             for (std::size_t v : faces[f]) p.corner[at++] = static_cast<int64_t>(v);

@@ -87,6 +87,7 @@ static bool surface_from_polygons(const polygons *p, const char *path, surface *
                           "vertex %lld has a coordinate that is not a finite number", (long long)(i / 3));
     surface s = surface_new((int32_t)p->point_count, (int32_t)triangles);
     if (p->point_count) memcpy(s.xyz, p->xyz, 3 * (size_t)p->point_count * sizeof *s.xyz);
+    if (p->rgb) s.rgb = COPY_ARRAY(uint8_t, p->rgb, 3 * (size_t)p->point_count);
     s.triangle_count = 0;
     for (int64_t f = 0; f < p->polygon_count; f++) {
         const int64_t *corner = p->corner + p->first[f];
@@ -135,6 +136,7 @@ void mesh_weld(surface *s, mesh_file_report *report)
             continue;
         }
         memmove(s->xyz + 3 * (size_t)vertices, s->xyz + 3 * (size_t)v, 3 * sizeof *s->xyz);
+        if (s->rgb) memmove(s->rgb + 3 * (size_t)vertices, s->rgb + 3 * (size_t)v, 3);
         number[v] = vertices++;
     }
     for (int32_t t = 0; t < s->triangle_count; t++) {

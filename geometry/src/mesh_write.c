@@ -12,18 +12,18 @@ static void put(FILE *to, const void *bytes, size_t size)
     (void)!fwrite(bytes, 1, size, to);
 }
 
-static void write_ply(const surface *s, const uint8_t *rgb, FILE *to)
+static void write_ply(const surface *s, FILE *to)
 {
     fprintf(
         to,
         "ply\nformat binary_little_endian 1.0\ncomment gnathos " GNATHOS_VERSION
         "\ncomment SPACE=LPS\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n%s"
         "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
-        s->vertex_count, rgb ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
+        s->vertex_count, s->rgb ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
         s->triangle_count);
     for (int32_t v = 0; v < s->vertex_count; v++) {
         put(to, s->xyz + 3 * (size_t)v, 3 * sizeof *s->xyz);
-        if (rgb) put(to, rgb + 3 * (size_t)v, 3);
+        if (s->rgb) put(to, s->rgb + 3 * (size_t)v, 3);
     }
     for (int32_t t = 0; t < s->triangle_count; t++) {
         fputc(3, to);
@@ -68,7 +68,7 @@ static void write_obj(const surface *s, FILE *to)
     }
 }
 
-bool mesh_write_surface(const surface *s, const uint8_t *rgb, const char *path, err *e)
+bool mesh_write_surface(const surface *s, const char *path, err *e)
 {
     bool ply = file_name_ends(path, ".ply"), stl = file_name_ends(path, ".stl");
     if (!ply && !stl && !file_name_ends(path, ".obj"))
@@ -76,7 +76,7 @@ bool mesh_write_surface(const surface *s, const uint8_t *rgb, const char *path, 
     whole_file w;
     if (!whole_file_open(path, &w, e)) return false;
     if (ply)
-        write_ply(s, rgb, w.stream);
+        write_ply(s, w.stream);
     else if (stl)
         write_stl(s, w.stream);
     else

@@ -11,6 +11,7 @@ typedef struct polygons {
     double *xyz;     /* [3*point_count] as stored */
     int64_t *first;  /* [polygon_count+1] where each polygon's corners start */
     int64_t *corner; /* [first[polygon_count]] point numbers, not checked */
+    uint8_t *rgb;    /* [3*point_count] colours of the points, or NULL */
 } polygons;
 
 void polygons_free(polygons *p);

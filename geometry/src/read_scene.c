@@ -12,6 +12,7 @@ void polygons_free(polygons *p)
     free(p->xyz);
     free(p->first);
     free(p->corner);
+    free(p->rgb);
     *p = (polygons){0};
 }
 

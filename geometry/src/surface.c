@@ -16,6 +16,7 @@ void surface_free(surface *s)
 {
     free(s->xyz);
     free(s->tri);
+    free(s->rgb);
     *s = (surface){0};
 }
 
@@ -24,6 +25,7 @@ surface surface_copy(const surface *s)
     surface c = *s;
     c.xyz = COPY_ARRAY(double, s->xyz, 3 * (size_t)s->vertex_count);
     c.tri = COPY_ARRAY(int32_t, s->tri, 3 * (size_t)s->triangle_count);
+    if (s->rgb) c.rgb = COPY_ARRAY(uint8_t, s->rgb, 3 * (size_t)s->vertex_count);
     return c;
 }
 
@@ -217,8 +219,12 @@ surface surface_select(const surface *s, const uint8_t *keep)
     }
     for (int32_t v = 0; v < s->vertex_count; v++) number[v] = number[v] ? vertices++ : -1;
     surface out = surface_new(vertices, triangles);
-    for (int32_t v = 0; v < s->vertex_count; v++)
-        if (number[v] >= 0) vec_copy(s->xyz + 3 * (size_t)v, out.xyz + 3 * (size_t)number[v]);
+    if (s->rgb) out.rgb = NEW_ARRAY(uint8_t, 3 * (size_t)vertices);
+    for (int32_t v = 0; v < s->vertex_count; v++) {
+        if (number[v] < 0) continue;
+        vec_copy(s->xyz + 3 * (size_t)v, out.xyz + 3 * (size_t)number[v]);
+        if (s->rgb) memcpy(out.rgb + 3 * (size_t)number[v], s->rgb + 3 * (size_t)v, 3);
+    }
     triangles = 0;
     for (int32_t t = 0; t < s->triangle_count; t++) {
         if (!keep[t]) continue;

@@ -217,6 +217,7 @@ static bool draw_tile(work *w, tile_kind kind, int view, bool after, image *half
     if (c->skin_before) {
         layer l = layer_default(w->skin[after], MATERIAL_SKIN);
         if (kind == TILE_BONES) l.opacity = w->params->skin_opacity;
+        if (kind != TILE_HEAT) l.vertex_rgb = (after ? c->skin_after : c->skin_before)->rgb;
         if (kind == TILE_HEAT) {
             l.scalar = w->displacement;
             l.low = w->low;

@@ -38,7 +38,7 @@ static void write_box(const char *path, const double low[3], const double high[3
     err e = {0};
     surface s;
     box(&s, low, high, open_below);
-    assert_ok(mesh_write_surface(&s, NULL, path, &e));
+    assert_ok(mesh_write_surface(&s, path, &e));
     surface_free(&s);
 }
 

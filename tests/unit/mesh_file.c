@@ -31,16 +31,18 @@ static void ply_round_trip_keeps_every_bit(void **state)
     surface s = cube(), back = {0};
     s.xyz[0] = -0.0;
     s.xyz[5] = 4.9406564584124654e-324;
-    uint8_t rgb[24];
-    for (int i = 0; i < 24; i++) rgb[i] = (uint8_t)(10 * i);
     mesh_file_report r;
     for (int colours = 0; colours < 2; colours++) {
-        assert_ok(mesh_write_surface(&s, colours ? rgb : NULL, "bits.ply", &e));
+        if (colours) s.rgb = NEW_ARRAY(uint8_t, 24);
+        for (int i = 0; colours && i < 24; i++) s.rgb[i] = (uint8_t)(10 * i);
+        assert_ok(mesh_write_surface(&s, "bits.ply", &e));
         assert_ok(mesh_read_surface("bits.ply", MESH_SPACE_FROM_FILE, &back, &r, &e));
         assert_int_equal(back.vertex_count, 8);
         assert_int_equal(back.triangle_count, 12);
         assert_memory_equal(back.xyz, s.xyz, 24 * sizeof *s.xyz);
         assert_memory_equal(back.tri, s.tri, 36 * sizeof *s.tri);
+        assert_int_equal(!back.rgb, !colours);
+        if (colours) assert_memory_equal(back.rgb, s.rgb, 24);
         assert_true(r.tagged && !r.ras && !r.welded_vertices && !r.dropped_triangles && !r.split_polygons);
         surface_free(&back);
     }
@@ -54,7 +56,7 @@ static void ply_whose_data_start_with_a_newline_byte_is_read_right(void **state)
     surface s = cube(), back = {0};
     unsigned char first[8] = {0x0A, 0x0D, 0x0A, 0, 0, 0, 0x59, 0x40}; /* little-endian double near 100 */
     memcpy(s.xyz, first, 8);
-    assert_ok(mesh_write_surface(&s, NULL, "newline.ply", &e));
+    assert_ok(mesh_write_surface(&s, "newline.ply", &e));
     assert_ok(mesh_read_surface("newline.ply", MESH_SPACE_FROM_FILE, &back, NULL, &e));
     assert_memory_equal(back.xyz, s.xyz, 24 * sizeof *s.xyz);
     surface_free(&back);
@@ -67,7 +69,7 @@ static void stl_cube_welds_to_eight_vertices(void **state)
     err e = {0};
     surface s = cube(), back = {0};
     mesh_file_report r;
-    assert_ok(mesh_write_surface(&s, NULL, "cube.STL", &e));
+    assert_ok(mesh_write_surface(&s, "cube.STL", &e));
     assert_ok(mesh_read_surface("cube.STL", MESH_SPACE_FROM_FILE, &back, &r, &e));
     assert_int_equal(back.vertex_count, 8);
     assert_int_equal(back.triangle_count, 12);
@@ -106,7 +108,7 @@ static void obj_round_trip_is_good_to_float(void **state)
     err e = {0};
     surface s = cube(), back = {0};
     mesh_file_report r;
-    assert_ok(mesh_write_surface(&s, NULL, "cube.obj", &e));
+    assert_ok(mesh_write_surface(&s, "cube.obj", &e));
     assert_ok(mesh_read_surface("cube.obj", MESH_SPACE_RAS, &back, &r, &e));
     assert_true(r.tagged && !r.ras); /* the tag wins over the caller */
     assert_int_equal(back.vertex_count, 8);
@@ -232,8 +234,8 @@ static void broken_files_are_refused_by_name(void **state)
     }
     assert_refused(mesh_read_surface("absent.ply", MESH_SPACE_FROM_FILE, &back, NULL, &e), ERR_INPUT);
     assert_refused(mesh_read_surface("/tmp", MESH_SPACE_FROM_FILE, &back, NULL, &e), ERR_INPUT);
-    assert_refused(mesh_write_surface(&s, NULL, "cube.vtk", &e), ERR_USAGE);
-    assert_refused(mesh_write_surface(&s, NULL, "no/such/folder/cube.ply", &e), ERR_RESOURCE);
+    assert_refused(mesh_write_surface(&s, "cube.vtk", &e), ERR_USAGE);
+    assert_refused(mesh_write_surface(&s, "no/such/folder/cube.ply", &e), ERR_RESOURCE);
     surface_free(&s);
 }
 
@@ -246,7 +248,7 @@ static void truncated_files_are_refused(void **state)
     static const char *const name[] = {"cut.ply", "cut.stl"};
     for (int i = 0; i < 2; i++) {
         char bytes[4096];
-        assert_ok(mesh_write_surface(&s, NULL, name[i], &e));
+        assert_ok(mesh_write_surface(&s, name[i], &e));
         FILE *f = fopen(name[i], "rb");
         size_t size = fread(bytes, 1, sizeof bytes, f);
         fclose(f);
