@@ -7,6 +7,7 @@
 #include "skin_colour.h"
 #include "targets.h"
 #include "teeth.h"
+#include "thickness.h"
 #include "warp.h"
 #include <stdlib.h>
 #include <string.h>
@@ -53,7 +54,7 @@ static const double skull_anchors[][3] = {{0, -88, 66},  {0, -55, 103}, {0, 10, 
 static const double mandible_anchors[][3] = {{44.3, -39.6, -8}};
 static const double skin_anchors[][3] = {
     {0, -94, 68},  {0, -62, 107}, {0, 8, 119},   {0, 88, 55},    {0, 70, -20},  {70, 0, 60},
-    {66, 45, 20},  {44, -78, 60}, {30, -92, 37}, {52, -72, 30},  {66, -28, 30}, {31, -88, 14},
+    {66, 45, 20},  {44, -78, 60}, {52, -72, 30},  {66, -28, 30}, {31, -88, 14},
     {45, -80, -3}, {75, 20, 30},  {76, 10, -22}, {0, -30, -150}, {0, 60, -150}};
 
 /* Where men differ beyond size and measures: the neck. */
@@ -84,19 +85,17 @@ static int place_number(const place *list, int count, const char *label)
     return -1;
 }
 
-static void warp_by(const warp_pairs *pairs, surface *s, surface *teeth, const place *list, int count,
+static void warp_by(const warp *w, surface *s, surface *teeth, const place *list, int count,
                     place_on bone, place_on crowns, landmarks *points)
 {
-    warp w = warp_through(pairs);
-    warp_surface(&w, s);
-    if (teeth) warp_surface(&w, teeth);
+    warp_surface(w, s);
+    if (teeth) warp_surface(w, teeth);
     for (int i = 0; i < count; i++) {
         if (list[i].on != bone && list[i].on != crowns) continue;
         double p[3];
-        warp_apply(&w, list[i].xyz, p);
+        warp_apply(w, list[i].xyz, p);
         landmarks_set(points, list[i].label, p);
     }
-    warp_free(&w);
 }
 
 /* The skin over the jaws follows the bone under it: these points take a share of what their landmarks do. */
@@ -108,16 +107,10 @@ typedef struct follower {
     } of[3];
 } follower;
 
-static const follower followers[] = {{{10, -96, 37}, {{"N", 0.8}, {NULL, 0}, {NULL, 0}}},
-                                     {{26, -89, -12}, {{"ANS", 0.35}, {"Or_L", 0.5}, {NULL, 0}}},
-                                     {{24, -91, -31}, {{"A", 0.6}, {"U1", 0.2}, {NULL, 0}}},
-                                     {{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25}, {NULL, 0}}},
+static const follower followers[] = {{{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25}, {NULL, 0}}},
                                      {{36, -80, -50}, {{"U1", 0.2}, {"L1", 0.3}, {"B", 0.2}}},
                                      {{24, -86, -72}, {{"B", 0.5}, {"Pog", 0.5}, {NULL, 0}}},
-                                     {{26, -77, -86}, {{"Me", 0.9}, {"Go_L", 0.1}, {NULL, 0}}},
-                                     {{38, -50, -80}, {{"Me", 0.55}, {"Go_L", 0.45}, {NULL, 0}}},
-                                     {{44, -45, -70}, {{"Me", 0.5}, {"Go_L", 0.5}, {NULL, 0}}},
-                                     {{57, -30, -40}, {{"Go_L", 0.45}, {NULL, 0}, {NULL, 0}}}};
+                                     {{26, -77, -86}, {{"Me", 0.9}, {"Go_L", 0.1}, {NULL, 0}}}};
 
 static void add_followers(warp_pairs *w, const place *list, int count, const double *to,
                           const double scale[3])
@@ -155,12 +148,13 @@ static surface join_teeth(const tooth *t)
     return all;
 }
 
-typedef struct fields { /* the three warps' pairs */
+typedef struct fields { /* the pairs of the three warps */
     warp_pairs skin, upper, lower;
+    warp up, down; /* through the last two */
 } fields;
 
-static fields make_fields(const norm_head_params *p, const place *list, int count, const double *asked,
-                          double lower_molars_mm)
+static fields make_fields(const norm_head_params *p, const place *list, int count,
+                          const thickness_site *sites, const double *asked, double lower_molars_mm)
 {
     double *to = NEW_ARRAY(double, 3 * count), scale[3];
     bool *held = NEW_ARRAY(bool, count);
@@ -181,6 +175,9 @@ static fields make_fields(const norm_head_params *p, const place *list, int coun
     ANCHORS(&f.skin, skin_anchors);
     add_dimorphic(&f.skin, skin_dimorphic, 2, p->sex, scale);
     add_followers(&f.skin, list, count, to, scale);
+    f.up = warp_through(&f.upper);
+    f.down = warp_through(&f.lower);
+    thickness_targets(sites, &f.up, &f.down, asked, &f.skin);
     free(to);
     free(held);
     return f;
@@ -191,26 +188,25 @@ static void free_fields(fields *f)
     warp_pairs_free(&f->skin);
     warp_pairs_free(&f->upper);
     warp_pairs_free(&f->lower);
+    warp_free(&f->up);
+    warp_free(&f->down);
 }
 
 /* How far the lower side teeth must be lowered so that they meet the upper ones: the arches of a class II or
  * III slide along each other and cusps come onto cusps. */
-static bool find_bite(const norm_head_params *p, const place *list, int count, const norm_head *h,
-                      double *lowered_mm, err *e)
+static bool find_bite(const norm_head_params *p, const place *list, int count, const thickness_site *sites,
+                      const norm_head *h, double *lowered_mm, err *e)
 {
     double lowered = 0;
     for (int round = 0; round < 6; round++) {
-        fields f = make_fields(p, list, count, h->asked, lowered);
-        warp up = warp_through(&f.upper), down = warp_through(&f.lower);
+        fields f = make_fields(p, list, count, sites, h->asked, lowered);
         surface upper = surface_copy(&h->upper_teeth), lower = surface_copy(&h->lower_teeth);
-        warp_surface(&up, &upper);
-        warp_surface(&down, &lower);
+        warp_surface(&f.up, &upper);
+        warp_surface(&f.down, &lower);
         double canine[3], depth = 0;
-        warp_apply(&up, list[place_number(list, count, "U3_L")].xyz, canine);
+        warp_apply(&f.up, list[place_number(list, count, "U3_L")].xyz, canine);
         bool ok = fit_overlap(&upper, &lower, canine[1] + 4, &depth, e);
         free_fields(&f);
-        warp_free(&up);
-        warp_free(&down);
         surface_free(&upper);
         surface_free(&lower);
         if (!ok) return false;
@@ -221,18 +217,22 @@ static bool find_bite(const norm_head_params *p, const place *list, int count, c
     return true;
 }
 
-static bool shape(const norm_head_params *p, const place *list, int count, const bool *exempt, norm_head *h,
-                  err *e)
+static bool shape(const norm_head_params *p, const place *list, int count, const thickness_site *sites,
+                  const bool *exempt, norm_head *h, err *e)
 {
     double lowered = 0;
-    if (!find_bite(p, list, count, h, &lowered, e)) return false;
-    fields f = make_fields(p, list, count, h->asked, lowered);
-    warp_by(&f.upper, &h->skull, &h->upper_teeth, list, count, ON_SKULL, ON_UPPER_TEETH, &h->points);
-    warp_by(&f.lower, &h->mandible, &h->lower_teeth, list, count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
-    warp_by(&f.skin, &h->skin, NULL, list, count, ON_SKIN, ON_SKIN, &h->points);
-    free_fields(&f);
+    if (!find_bite(p, list, count, sites, h, &lowered, e)) return false;
+    fields f = make_fields(p, list, count, sites, h->asked, lowered);
+    warp_by(&f.up, &h->skull, &h->upper_teeth, list, count, ON_SKULL, ON_UPPER_TEETH, &h->points);
+    warp_by(&f.down, &h->mandible, &h->lower_teeth, list, count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
+    warp skin = warp_through(&f.skin);
+    warp_by(&skin, &h->skin, NULL, list, count, ON_SKIN, ON_SKIN, &h->points);
+    warp_free(&skin);
     const surface *bones[] = {&h->skull, &h->mandible, &h->upper_teeth, &h->lower_teeth};
-    return fit_clear(&h->skin, exempt, bones, 4, skin_least_mm, &h->thinnest_mm, e);
+    bool ok = fit_clear(&h->skin, exempt, bones, 4, skin_least_mm, &h->thinnest_mm, e) &&
+              thickness_measure(sites, &f.up, &f.down, &h->skull, &h->mandible, &h->skin, h->asked, h->obtained, e);
+    free_fields(&f);
+    return ok;
 }
 
 /* Landmarks lie on the shapes, the meshes within a tenth of a millimetre of them: put each onto its mesh. */
@@ -280,13 +280,15 @@ bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
         h.skin.rgb = skin_colours(&h.skin);
         place *list = NULL;
         int count = places_find(&b, &list);
+        thickness_site sites[THICKNESS_SITES];
+        thickness_sites(&b, sites);
         bool *exempt = skin_folds(&h.skin);
-        ok = shape(p, list, count, exempt, &h, e) && onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
+        ok = shape(p, list, count, sites, exempt, &h, e) && onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
              onto_mesh(&h.skull, ON_SKULL, list, count, &h.points, e) &&
              onto_mesh(&h.mandible, ON_MANDIBLE, list, count, &h.points, e) &&
              onto_mesh(&h.upper_teeth, ON_UPPER_TEETH, list, count, &h.points, e) &&
              onto_mesh(&h.lower_teeth, ON_LOWER_TEETH, list, count, &h.points, e);
-        for (int i = 0; ok && i < MEASURE_COUNT; i++) h.obtained[i] = measure_of((measure_id)i, &h.points);
+        for (int i = 0; ok && i < GLABELLA_SOFT_MM; i++) h.obtained[i] = measure_of((measure_id)i, &h.points);
         free(list);
         free(exempt);
     }

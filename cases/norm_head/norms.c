@@ -111,6 +111,22 @@ const measure measures[MEASURE_COUNT] = {
         {"upper_lip_mm", "subnasale to stomion, vertical", "3DFN", {20.3, 22.6}, {1.8, 2}, {0, 0}, 14, 29},
     [MOUTH_MM] = {"mouth_mm", "cheilion to cheilion", "3DFN", {47.9, 50.1}, {2.8, 3}, {0, 0}, 38, 60},
     [NASAL_WIDTH_MM] = {"nasal_width_mm", "alare to alare", "3DFN", {32.7, 35.9}, {2, 2.3}, {0, 0}, 26, 44},
+    /* spreads half of the tables': a smooth face has no room for independent quarters of each depth */
+    [GLABELLA_SOFT_MM] = {"glabella_soft_mm", "soft tissue over glabella", "T-Table", {5.4, 5.5}, {0.5, 0.5}, {0, 0}, 3.5, 8},
+    [MID_NASAL_SOFT_MM] = {"mid_nasal_soft_mm", "soft tissue over the middle of the nasal bones", "T-Table", {4, 4.3}, {0.3, 0.3}, {0, 0}, 3.2, 6},
+    [RHINION_SOFT_MM] = {"rhinion_soft_mm", "soft tissue over rhinion, the end of the nasal bones", "T-Table", {3.1, 3.4}, {0.2, 0.2}, {0, 0}, 2.8, 5},
+    [MID_PHILTRUM_SOFT_MM] = {"mid_philtrum_soft_mm", "soft tissue over the middle of the philtrum", "T-Table", {11, 12.2}, {0.5, 0.5}, {0, 0}, 8, 16},
+    [MID_SUPRAORBITAL_SOFT_MM] = {"mid_supraorbital_soft_mm", "soft tissue over the upper rim of the orbit", "T-Table", {6, 6.3}, {0.5, 0.5}, {0, 0}, 4, 9},
+    [MID_INFRAORBITAL_SOFT_MM] = {"mid_infraorbital_soft_mm", "soft tissue over the lower rim of the orbit", "T-Table", {6.5, 6.8}, {0.6, 0.6}, {0, 0}, 4, 10},
+    [ALAR_CURVATURE_SOFT_MM] = {"alar_curvature_soft_mm", "soft tissue over the crease beside the wing of the nose", "T-Table", {9.5, 10.2}, {0.8, 0.8}, {0, 0}, 6, 14},
+    [ZYGION_SOFT_MM] = {"zygion_soft_mm", "soft tissue over the cheekbone's arch", "T-Table", {5.8, 6.2}, {0.6, 0.6}, {0, 0}, 4, 9},
+    [SUPRA_CANINE_SOFT_MM] = {"supra_canine_soft_mm", "soft tissue over the root of the upper canine", "T-Table", {9.5, 10.4}, {0.8, 0.8}, {0, 0}, 6.5, 14},
+    [INFRA_CANINE_SOFT_MM] = {"infra_canine_soft_mm", "soft tissue over the root of the lower canine", "T-Table", {10, 11}, {0.8, 0.8}, {0, 0}, 7, 14.5},
+    [SUPRA_M2_SOFT_MM] = {"supra_m2_soft_mm", "soft tissue over the upper second molar", "T-Table", {25.5, 26.5}, {1.5, 1.5}, {0, 0}, 19, 33},
+    [INFRA_M2_SOFT_MM] = {"infra_m2_soft_mm", "soft tissue over the lower second molar", "T-Table", {17.5, 19.5}, {1.5, 1.5}, {0, 0}, 13, 26},
+    [MID_RAMUS_SOFT_MM] = {"mid_ramus_soft_mm", "soft tissue over the middle of the ramus", "T-Table", {15.5, 17.5}, {1.5, 1.5}, {0, 0}, 11, 24},
+    [GONION_SOFT_MM] = {"gonion_soft_mm", "soft tissue over gonion", "T-Table", {9.5, 11}, {1.2, 1.2}, {0, 0}, 8, 18},
+    [MID_BORDER_SOFT_MM] = {"mid_border_soft_mm", "soft tissue over the lower border of the mandible, halfway", "T-Table", {10, 11.5}, {1.2, 1.2}, {0, 0}, 8, 18},
 };
 
 int measure_find(const char *name)
@@ -238,10 +254,10 @@ double measure_of(measure_id id, const landmarks *l)
         return width(l, "Ch_L", "Ch_R");
     case NASAL_WIDTH_MM:
         return width(l, "Al_L", "Al_R");
-    case MEASURE_COUNT:
+    default:
         break;
     }
-    assert(!"a measure of the table");
+    assert(!"a measure of landmarks");
     return 0;
 }
 
@@ -264,13 +280,24 @@ static double normal(uint64_t *state)
     }
 }
 
+/* Depths that go together (Lebanese adults, Forensic Science International 2018). */
+static const struct {
+    int of, with;
+    double r;
+} related[] = {{LOWER_LIP_SOFT_MM, UPPER_LIP_SOFT_MM, 0.763}, {MENTON_SOFT_MM, POGONION_SOFT_MM, 0.784}};
+
 void norms_draw(norm_sex sex, int skeletal_class, uint64_t seed, double value[MEASURE_COUNT])
 {
     uint64_t state = seed;
+    double drawn[MEASURE_COUNT];
     for (int i = 0; i < MEASURE_COUNT; i++) {
         const measure *m = &measures[i];
         double shift = skeletal_class > 1 ? m->class_shift[skeletal_class - 2] : 0;
-        value[i] = m->mean[sex] + shift + (seed ? m->sd[sex] * normal(&state) : 0);
+        drawn[i] = seed ? normal(&state) : 0;
+        for (size_t k = 0; k < sizeof related / sizeof *related; k++)
+            if (related[k].of == i)
+                drawn[i] = related[k].r * drawn[related[k].with] + sqrt(1 - related[k].r * related[k].r) * drawn[i];
+        value[i] = m->mean[sex] + shift + m->sd[sex] * drawn[i];
         value[i] = fmin(fmax(value[i], m->low), m->high);
     }
 }

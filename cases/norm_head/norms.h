@@ -40,6 +40,22 @@ typedef enum measure_id {
     UPPER_LIP_MM,
     MOUTH_MM,
     NASAL_WIDTH_MM,
+    /* depths of the soft tissue, measured on the meshes (thickness.h) */
+    GLABELLA_SOFT_MM,
+    MID_NASAL_SOFT_MM,
+    RHINION_SOFT_MM,
+    MID_PHILTRUM_SOFT_MM,
+    MID_SUPRAORBITAL_SOFT_MM,
+    MID_INFRAORBITAL_SOFT_MM,
+    ALAR_CURVATURE_SOFT_MM,
+    ZYGION_SOFT_MM,
+    SUPRA_CANINE_SOFT_MM,
+    INFRA_CANINE_SOFT_MM,
+    SUPRA_M2_SOFT_MM,
+    INFRA_M2_SOFT_MM,
+    MID_RAMUS_SOFT_MM,
+    GONION_SOFT_MM,
+    MID_BORDER_SOFT_MM,
     MEASURE_COUNT
 } measure_id;
 
@@ -53,7 +69,7 @@ typedef struct measure {
 extern const measure measures[MEASURE_COUNT];
 
 int measure_find(const char *name); /* -1 if there is none */
-/* Of the landmarks; asserts that those it needs are there. Frankfort plane: z = 0 of the generator's axes. */
+/* Of the landmarks, for those before GLABELLA_SOFT_MM; asserts that those it needs are there. Frankfort plane: z = 0 of the generator's axes. */
 double measure_of(measure_id id, const landmarks *l);
 
 /* Means of the sex, shifted to the skeletal class 1, 2 or 3, plus one draw of each spread (within two

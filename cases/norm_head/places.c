@@ -58,7 +58,7 @@ static const search searches[] = {{"N", BODY_SKULL, {0, -87, 26}, {0, 1, 0}, 4},
                                   {"Go'", BODY_SKIN, {54, -12, -62}, {0, 0, 0}, 0},
                                   {"T", BODY_SKIN, {69, -4, 4}, {0, 0, 0}, 0}};
 
-static void project(const bodies *b, body_id id, bool midline, double p[3])
+void place_project(const bodies *b, body_id id, bool midline, double p[3])
 {
     for (int i = 0; i < 20; i++) {
         double n[3], d = body_distance(b, id, p);
@@ -74,7 +74,7 @@ static void look(const bodies *b, const search *s, double p[3])
 {
     bool midline = s->guess[0] == 0;
     vec_copy(s->guess, p);
-    project(b, s->body, midline, p);
+    place_project(b, s->body, midline, p);
     double start[3];
     vec_copy(p, start);
     for (double step = 0.8; s->reach > 0 && step > 0.02; step *= 0.7) {
@@ -85,7 +85,7 @@ static void look(const bodies *b, const search *s, double p[3])
             if (midline) t[0] = 0;
             if (vec_normalize(t) < 1e-3) break;
             vec_axpy(p, step, t, q);
-            project(b, s->body, midline, q);
+            place_project(b, s->body, midline, q);
             if (vec_dot(q, s->direction) <= vec_dot(p, s->direction) + 1e-4 ||
                 vec_distance(q, start) > s->reach)
                 break;

@@ -12,5 +12,7 @@ typedef struct place {
     double xyz[3];
 } place;
 
+/* Onto the body along its normals, from nearby; in the midline if asked. */
+void place_project(const bodies *b, body_id id, bool midline, double p[3]);
 /* All of them, found on the bodies. The caller frees *out. */
 int places_find(const bodies *b, place **out);

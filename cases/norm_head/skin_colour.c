@@ -40,14 +40,14 @@ static double scalp(double x, double y, double z)
         if (y > line[i][0])
             height = sdf_mix(line[i][1], line[i + 1][1],
                              sdf_clamp((y - line[i][0]) / (line[i + 1][0] - line[i][0]), 0, 1));
-    double ear = hypot((y - 4) / 23, (z - 2) / 38);
+    double ear = hypot((y - 5) / 19, (z - 2) / 33);
     double bare = x > 55 ? 1 - sdf_step(0.9, 1.15, ear) : 0;
     return 0.62 * sdf_step(-3, 13, z - height) * (1 - bare);
 }
 
 uint8_t *skin_colours(const surface *skin)
 {
-    static const double base[3] = {222, 178, 152}, lip[3] = {194, 118, 108}, cheek[3] = {222, 156, 136};
+    static const double base[3] = {222, 178, 152}, lip[3] = {196, 126, 114}, cheek[3] = {222, 156, 136};
     static const double hair[3] = {104, 76, 60}, lash[3] = {120, 88, 74};
     uint8_t *rgb = NEW_ARRAY(uint8_t, 3 * skin->vertex_count);
     for (int i = 0; i < skin->vertex_count; i++) {
@@ -62,7 +62,7 @@ uint8_t *skin_colours(const surface *skin)
         if (y < -70 && x > 15 && x < 47) {
             double off = fabs(z - skin_lid_line(x));
             blend(c, lash,
-                  0.8 * (1 - sdf_step(0.4, 1.6, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
+                  0.7 * (1 - sdf_step(0.3, 1.4, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
         }
         for (int k = 0; k < 3; k++) rgb[3 * i + k] = (uint8_t)(sdf_clamp(c[k], 0, 255) + 0.5);
     }

@@ -150,7 +150,6 @@ static void face(plan_points *t, const double *v)
 {
     const double *n = point(t, "N"), *a = point(t, "A"), *u1 = point(t, "U1"), *l1 = point(t, "L1");
     const double *b = point(t, "B"), *pog = point(t, "Pog"), *me = point(t, "Me");
-    shift(t, "G'", 0.8 * moved(t, "N", 1), moved(t, "N", 2));
     hold(t, "N'", n[1] - v[NASION_SOFT_MM], base(t, "N'", 2) + moved(t, "N", 2));
     double sn_y = a[1] - v[SUBNASALE_SOFT_MM], sn_z = base(t, "Sn", 2) + moved(t, "ANS", 2);
     hold(t, "Sn", sn_y, sn_z);
@@ -167,16 +166,13 @@ static void face(plan_points *t, const double *v)
     hold(t, "Li_soft", li_y, base(t, "Li_soft", 2) + 0.8 * stm_move + 0.2 * moved(t, "L1", 2));
     hold_pair(t, "Ch", v[MOUTH_MM] / 2, base(t, "Ch_L", 1) + 0.45 * (ls_move + li_move),
               base(t, "Ch_L", 2) + stm_move);
-    shift(t, "A'", 0.5 * (moved(t, "Sn", 1) + ls_move), 0.5 * (moved(t, "Sn", 2) + moved(t, "Ls", 2)));
     hold(t, "B'", b[1] - v[SUPRAMENTAL_SOFT_MM], base(t, "B'", 2) + moved(t, "B", 2));
     hold(t, "Pg'", pog[1] - v[POGONION_SOFT_MM], base(t, "Pg'", 2) + moved(t, "Pog", 2));
     hold(t, "Me'", base(t, "Me'", 1) + moved(t, "Me", 1), me[2] - v[MENTON_SOFT_MM]);
     shift(t, "Gn'", 0.5 * (moved(t, "Pg'", 1) + moved(t, "Me'", 1)),
           0.5 * (moved(t, "Pg'", 2) + moved(t, "Me'", 2)));
     shift(t, "C", 0.5 * moved(t, "Me", 1), 0.5 * moved(t, "Me", 2));
-    double zy = v[BIZYGOMATIC_MM] / 2 - base(t, "Zy_L", 0), go = v[BIGONIAL_MM] / 2 - base(t, "Go_L", 0);
-    shift_pair(t, "Zy'", zy, 0, 0);
-    shift_pair(t, "Go'", go, moved(t, "Go_L", 1), moved(t, "Go_L", 2));
+    double zy = v[BIZYGOMATIC_MM] / 2 - base(t, "Zy_L", 0);
     shift_pair(t, "T", 0.5 * zy, 0, 0);
     shift_pair(t, "En", 0, 0.5 * moved(t, "N", 1), 0);
     shift_pair(t, "Ex", 0, 0.3 * moved(t, "N", 1), 0);
@@ -188,7 +184,7 @@ static void swing(plan_points *t, double chin_mm)
 {
     double joint = point(t, "Co_L")[1], me = point(t, "Me")[1];
     static const char *const soft[] = {"B'", "Pg'", "Gn'", "Me'"};
-    static const char *const partly[] = {"Li_soft", "Stm", "Ch_L", "Ch_R", "C", "Go'_L", "Go'_R"};
+    static const char *const partly[] = {"Li_soft", "Stm", "Ch_L", "Ch_R", "C"};
     for (int i = 0; i < t->count; i++) {
         const place *p = &t->places[i];
         double share = (joint - t->to[3 * i + 1]) / (joint - me), part = 0;
@@ -196,14 +192,12 @@ static void swing(plan_points *t, double chin_mm)
         for (size_t k = 0; k < sizeof soft / sizeof *soft; k++)
             if (!strcmp(p->label, soft[k])) part = share;
         for (size_t k = 0; k < sizeof partly / sizeof *partly; k++)
-            if (!strcmp(p->label, partly[k])) part = p->label[0] == 'G' ? share : 0.5 * share;
+            if (!strcmp(p->label, partly[k])) part = 0.5 * share;
         t->to[3 * i] += part * chin_mm;
     }
     double cant = 0.25 * chin_mm;
     point(t, "Go_R")[2] -= cant;
     point(t, "Go_L")[2] += cant;
-    point(t, "Go'_R")[2] -= cant;
-    point(t, "Go'_L")[2] += cant;
 }
 
 void targets_scale(norm_sex sex, double scale[3])
