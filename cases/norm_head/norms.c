@@ -297,7 +297,7 @@ void norms_draw(norm_sex sex, int skeletal_class, uint64_t seed, double value[ME
         for (size_t k = 0; k < sizeof related / sizeof *related; k++)
             if (related[k].of == i)
                 drawn[i] = related[k].r * drawn[related[k].with] + sqrt(1 - related[k].r * related[k].r) * drawn[i];
-        value[i] = m->mean[sex] + shift + m->sd[sex] * drawn[i];
+        value[i] = m->mean[sex] + shift + m->sd[sex] * fmax(-2, fmin(drawn[i], 2));
         value[i] = fmin(fmax(value[i], m->low), m->high);
     }
 }

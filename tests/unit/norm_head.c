@@ -17,7 +17,7 @@ static norm_head_params params(void)
     p.sex = NORM_MALE;
     p.skeletal_class = 3;
     p.seed = 5;
-    p.coarseness = 3;
+    p.coarseness = 1; /* depths feel the chords of coarser meshes */
     p.is_set[NOSE_MM] = true;
     p.set[NOSE_MM] = 23;
     return p;
@@ -70,8 +70,9 @@ static void measures_come_out_as_asked(void **state)
     (void)state;
     assert_near(head.asked[NOSE_MM], 23, 0);
     for (int i = 0; i < MEASURE_COUNT; i++) {
-        if (fabs(head.obtained[i] - head.asked[i]) > 0.5) print_error("%s\n", measures[i].name);
-        assert_near(head.obtained[i], head.asked[i], 0.5);
+        double within = i < GLABELLA_SOFT_MM ? 0.5 : 0.7;
+        if (fabs(head.obtained[i] - head.asked[i]) > within) print_error("%s\n", measures[i].name);
+        assert_near(head.obtained[i], head.asked[i], within);
     }
 }
 
@@ -151,6 +152,32 @@ static void the_same_seed_gives_the_same_measures_and_another_seed_others(void *
     assert_true(differ > MEASURE_COUNT / 2);
 }
 
+static void depths_that_go_together_are_drawn_together(void **state)
+{
+    (void)state;
+    static const struct {
+        measure_id a, b;
+        double r;
+    } rows[] = {{UPPER_LIP_SOFT_MM, LOWER_LIP_SOFT_MM, 0.763},
+                {POGONION_SOFT_MM, MENTON_SOFT_MM, 0.784},
+                {GLABELLA_SOFT_MM, GONION_SOFT_MM, 0}};
+    enum { DRAWS = 4000 };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        double sum[5] = {0};
+        for (uint64_t seed = 1; seed <= DRAWS; seed++) {
+            double v[MEASURE_COUNT];
+            norms_draw(NORM_FEMALE, 1, seed, v);
+            double x = v[rows[k].a] - measures[rows[k].a].mean[NORM_FEMALE],
+                   y = v[rows[k].b] - measures[rows[k].b].mean[NORM_FEMALE];
+            double term[5] = {x, y, x * x, y * y, x * y};
+            for (int c = 0; c < 5; c++) sum[c] += term[c] / DRAWS;
+        }
+        double r = (sum[4] - sum[0] * sum[1]) /
+                   sqrt((sum[2] - sum[0] * sum[0]) * (sum[3] - sum[1] * sum[1]));
+        assert_near(r, rows[k].r, 0.05);
+    }
+}
+
 static void warps_take_points_exactly_and_keep_affine_maps(void **state)
 {
     (void)state;
@@ -201,6 +228,7 @@ int main(void)
         cmocka_unit_test(bone_and_teeth_stay_under_the_skin),
         cmocka_unit_test(class_three_has_the_lower_incisors_in_front),
         cmocka_unit_test(the_same_seed_gives_the_same_measures_and_another_seed_others),
+        cmocka_unit_test(depths_that_go_together_are_drawn_together),
         cmocka_unit_test(warps_take_points_exactly_and_keep_affine_maps),
         cmocka_unit_test(refuses_what_it_cannot_build)};
     return cmocka_run_group_tests(tests, build, clean);
