@@ -53,6 +53,8 @@ const landmark_row landmark_rows[] = {
     {"PNS", NEED_LE_FORT_1, NULL, CASE_SKULL, "posterior nasal spine", NULL},
     {"U1_apex", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "root tip of the upper incisors",
      "the incisors' inclination"},
+    {"L1_apex", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "root tip of the lower incisors",
+     "the lower incisors' inclination"},
     BOTH("IOF", NEED_OPTIONAL, CASE_SKULL, "infraorbital foramen",
          "the distance of the Le Fort I cut from the nerve"),
     BOTH("Zy", NEED_OPTIONAL, CASE_SKULL, "zygion, side of the cheekbone's arch",
