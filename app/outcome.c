@@ -238,6 +238,21 @@ bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e)
     return ok;
 }
 
+/* The most compressed tet at rest: its middle, LPS mm, and how far the skin is from there. */
+static double worst_tet(const outcome *o, double middle[3])
+{
+    const tetmesh *m = &o->prepared->tissue.mesh;
+    const int32_t *node = m->tet + 4 * (size_t)o->solve->extremes.min_j_tet;
+    double away = HUGE_VAL;
+    for (int c = 0; c < 3; c++) {
+        middle[c] = 0;
+        for (int k = 0; k < 4; k++) middle[c] += 0.25 * m->xyz[3 * (size_t)node[k] + c];
+    }
+    for (int32_t v = 0; v < o->prepared->skin.vertex_count; v++)
+        away = fmin(away, vec_distance(middle, o->prepared->skin.xyz + 3 * (size_t)v));
+    return away;
+}
+
 void outcome_print(const outcome *o)
 {
     const equilibrium *q = o->solve;
@@ -250,6 +265,12 @@ void outcome_print(const outcome *o)
            q->extremes.inverted_count, q->extremes.max_stretch);
     printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "",
            o->solve_s);
+    if (q->extremes.inverted_count > 0) {
+        double middle[3], away = worst_tet(o, middle);
+        printf("%d tets are turned inside out, the worst at (%.1f, %.1f, %.1f) mm, %.1f mm from the skin: the shape is "
+               "not to be trusted near there\n",
+               q->extremes.inverted_count, middle[0], middle[1], middle[2], away);
+    }
     const contact_report *c = &q->contact;
     if (c->on)
         printf("contact: %d of %d nodes touch, %.0f mm2 on bone and %.0f mm2 between the lips, deepest %.3f mm, up to "
