@@ -69,9 +69,10 @@ static double piece_distance(const tube *t, const double a[4], const double b[4]
     return flat_distance(w, vec_norm(q), r, t->flat);
 }
 
-double tube_distance(const tube *t, const double p[3])
+/* The distance where it is less than `limit`, else limit or more. */
+static double distance_below(const tube *t, const double p[3], double limit)
 {
-    double best = HUGE_VAL;
+    double best = limit;
     for (int i = 0; i + 1 < t->count; i++) {
         const double *around = t->stretch[i / TUBE_STEPS];
         /* the bound does not hold for the first-order distance of a flat section */
@@ -83,14 +84,20 @@ double tube_distance(const tube *t, const double p[3])
     return best;
 }
 
+double tube_distance(const tube *t, const double p[3])
+{
+    return distance_below(t, p, HUGE_VAL);
+}
+
+/* Farther than k from d, a blend leaves d as it is. */
 double tube_union(double d, const tube *t, const double p[3], double k)
 {
     double least = vec_distance(p, t->centre) - t->reach;
-    return least > d + k ? d : sdf_union(d, tube_distance(t, p), k);
+    return least > d + k ? d : sdf_union(d, distance_below(t, p, d + k), k);
 }
 
 double tube_cut(double d, const tube *t, const double p[3], double k)
 {
     double least = vec_distance(p, t->centre) - t->reach;
-    return least > k - d ? d : sdf_cut(d, tube_distance(t, p), k);
+    return least > k - d ? d : sdf_cut(d, distance_below(t, p, k - d), k);
 }
