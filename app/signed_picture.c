@@ -53,7 +53,7 @@ bool signed_pictures_write(const face_compare *c, char *const paths[SIGNED_PICTU
         l.map = COLORMAP_COOLWARM;
         l.high = colormap_nice_ceiling(fmax(c->row[PREDICTED][ROW_FACE].p95, 1));
         l.low = l.fade_end = -l.high;
-        ok = picture_bake(s, &l, 1, 64, e);
+        ok = picture_bake(&l, 1, 64, e);
         for (int i = 0; ok && i < SIGNED_PICTURES; i++) ok = draw(s, &l, c, view[i], paths[i], e);
     }
     model_free(&shape);

@@ -40,14 +40,14 @@ typedef struct comparison {
 } comparison;
 
 typedef struct comparison_params {
-    int tile_width, tile_height, supersample; /* even; pixels of each half of a before | after picture */
+    int tile_width, tile_height; /* even; pixels of each half of a before | after picture */
     int light_directions;                     /* see picture_bake */
     double skin_opacity;                      /* over the bones */
     double heat_high_mm;                      /* end of the colour range; 0: from the data, rounded up */
     label_fonts fonts;
 } comparison_params;
 
-comparison_params comparison_params_default(void); /* 900 x 1000, 2, 64, 0.25, from the data, DejaVu Sans */
+comparison_params comparison_params_default(void); /* 900 x 1000, 64, 0.25, from the data, DejaVu Sans */
 
 enum { COMPARISON_PICTURES_MAX = 16, COMPARISON_NAME_SIZE = 64 };
 

@@ -88,7 +88,6 @@ static bool plate_tile(const stage *g, const plate *p, int side, image *out, err
     picture_style style = picture_style_default();
     style.width = p->params->tile_width;
     style.height = p->params->tile_height;
-    style.supersample = p->params->supersample;
     camera c = camera_standard(p->view[side], p->frame, p->frame->origin);
     camera_fit_surfaces(&c, g->fitted, g->count, style.width, style.height, p->point_count ? 0.13 : 0.09);
     uint8_t *seen = NEW_ARRAY(uint8_t, p->point_count);
@@ -177,7 +176,7 @@ bool anatomy_exploded_write(const anatomy_piece *pieces, int count, const stroke
                .cut_count = cut_count,
                .entries = entry,
                .entry_count = entries};
-    ok = ok && picture_bake(g.s, g.layers, g.count, params->light_directions, e) &&
+    ok = ok && picture_bake(g.layers, g.count, params->light_directions, e) &&
          plate_write(&g, &p, path, e);
     free(entry);
     stage_close(&g);
@@ -205,13 +204,13 @@ bool anatomy_landmarks_write(const surface *skin, const comparison_part *parts, 
     bool ok = stage_open(&g, part_count + 1, e);
     for (int i = 0; ok && i < part_count; i++)
         ok = stage_add(&g, parts[i].bone, parts[i].kind, parts[i].rgb, &parts[i].before, e);
-    ok = ok && picture_bake(g.s, g.layers, g.count, params->light_directions, e);
+    ok = ok && picture_bake(g.layers, g.count, params->light_directions, e);
     if (ok && skin) {
         double rgb[3];
         rigid stay = rigid_identity();
         material_color(MATERIAL_SKIN, rgb);
         ok = stage_add(&g, skin, MATERIAL_SKIN, rgb, &stay, e) &&
-             picture_bake(g.s, g.layers + g.count - 1, 1, params->light_directions, e);
+             picture_bake(g.layers + g.count - 1, 1, params->light_directions, e);
         if (ok && part_count) g.layers[g.count - 1].opacity = params->skin_opacity;
     }
     mark *marks = NEW_ARRAY(mark, points->count);

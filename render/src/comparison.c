@@ -15,7 +15,6 @@ comparison_params comparison_params_default(void)
 {
     return (comparison_params){.tile_width = 900,
                                .tile_height = 1000,
-                               .supersample = 2,
                                .light_directions = 64,
                                .skin_opacity = 0.25,
                                .fonts = label_fonts_default()};
@@ -134,7 +133,7 @@ static bool load(work *w, err *e)
             return err_prefix(e, "%s", c->parts[i].name ? c->parts[i].name : "bone");
     for (int k = 0; c->skin_before && k < 2; k++) {
         layer l = layer_default(w->skin[k], MATERIAL_SKIN);
-        if (!picture_bake(w->s, &l, 1, w->params->light_directions, e)) return false;
+        if (!picture_bake(&l, 1, w->params->light_directions, e)) return false;
     }
     return true;
 }
@@ -230,7 +229,6 @@ static bool draw_tile(work *w, tile_kind kind, int view, bool after, image *half
     picture_style style = picture_style_default();
     style.width = width;
     style.height = height;
-    style.supersample = w->params->supersample;
     image im = {0};
     pen *marker = NULL;
     bool ok = picture_render(w->s, &p, &style, &im, NULL, e);
@@ -292,7 +290,7 @@ static bool draw_pose(work *w, bool after, waiting *t, err *e)
     /* The light of the bones depends on where they are. */
     if (c->part_count) {
         layer *layers = NEW_ARRAY(layer, c->part_count);
-        bool ok = picture_bake(w->s, layers, bone_layers(w, after, layers), w->params->light_directions, e);
+        bool ok = picture_bake(layers, bone_layers(w, after, layers), w->params->light_directions, e);
         free(layers);
         if (!ok) return false;
     }

@@ -37,9 +37,9 @@ static bool encode(png_structp png, png_infop info, FILE *f, const image *im, pn
                  rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_set_compression_level(png, 6);
-    /* Smooth shading packs best against the row above, and one filter is three times as fast as choosing. */
-    png_set_filter(png, 0, PNG_FILTER_PAETH);
+    /* On smooth shading this filter at this level is 3 % larger and three times as fast than the best. */
+    png_set_compression_level(png, 4);
+    png_set_filter(png, 0, PNG_FILTER_AVG);
     if (text_count > 0) png_set_text(png, info, texts, text_count);
     png_write_info(png, info);
     if (rgb) png_set_filler(png, 0, PNG_FILLER_AFTER);
