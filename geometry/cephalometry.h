@@ -37,6 +37,9 @@ typedef struct ceph_value {
     char note[CEPH_NOTE_SIZE]; /* "needs L1_apex", or "Co stands for Ar", or "" */
 } ceph_value;
 
+/* The landmark, or the mean that a name without a side stands for: Go, Co, Ar, Or, Po, occlusal_3 and occlusal_6 (upper
+ * and lower canines, first molars). false: *missing names the landmark that is not there. */
+bool ceph_point(const landmarks *l, const char *name, double xyz[3], const char **missing) MUST_CHECK;
 /* Fills out[ceph_measure_count]. Both sides of a change are to be taken in one frame, that of before. */
 void ceph_evaluate(const landmarks *l, const head_frame *f, ceph_value out[CEPH_MEASURES_MAX]);
 

@@ -30,7 +30,8 @@ typedef struct layer {
     double low, high;
     double fade_end; /* from low to here rgb passes into the map; <= low: the map everywhere */
     double opacity;  /* 1: opaque; below 1 only the front-most sheet of the layer is seen */
-    bool over;       /* clear layers: seen through all other layers, not only where it lies in front */
+    bool over; /* clear layers: an outline seen through all other layers, not only where it lies in front */
+    const double *weight; /* [vertex_count] 0..1, times the opacity of a clear layer; may be NULL */
     rigid move;
 } layer;
 

@@ -126,30 +126,35 @@ static const struct {
 } midpoint[] = {{"Go", {"Go_L", "Go_R"}},
                 {"Co", {"Co_L", "Co_R"}},
                 {"Ar", {"Ar_L", "Ar_R"}},
+                {"Or", {"Or_L", "Or_R"}},
+                {"Po", {"Po_L", "Po_R"}},
                 {"occlusal_3", {"U3_L", "U3_R", "L3_L", "L3_R"}},
                 {"occlusal_6", {"U6_L", "U6_R", "L6_L", "L6_R"}}};
 
-/* false: *missing names what is not there. */
-static bool find(const landmarks *l, const head_frame *f, const char *name, point *out, const char **missing)
+bool ceph_point(const landmarks *l, const char *name, double xyz[3], const char **missing)
 {
     const char *single[4] = {name};
     const char *const *of = single;
-    const landmark *p;
     if (!landmarks_find(l, name))
         for (size_t i = 0; i < sizeof midpoint / sizeof *midpoint; i++)
             if (!strcmp(midpoint[i].name, name)) of = midpoint[i].of;
-    double mean[3] = {0}, local[3];
+    double mean[3] = {0};
     int n = 0;
     for (; n < 4 && of[n]; n++) {
-        p = landmarks_find(l, of[n]);
-        if (!p) {
-            *missing = of[n];
-            return false;
-        }
+        const landmark *p = landmarks_find(l, of[n]);
+        *missing = of[n];
+        if (!p) return false;
         vec_add(mean, p->xyz, mean);
     }
-    vec_scale(mean, 1.0 / n, mean);
-    head_frame_to_local(f, mean, local);
+    vec_scale(mean, 1.0 / n, xyz);
+    return true;
+}
+
+static bool find(const landmarks *l, const head_frame *f, const char *name, point *out, const char **missing)
+{
+    double xyz[3], local[3];
+    if (!ceph_point(l, name, xyz, missing)) return false;
+    head_frame_to_local(f, xyz, local);
     *out = (point){-local[1], local[2]};
     return true;
 }

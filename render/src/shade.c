@@ -89,8 +89,9 @@ static void shade_vertices(int64_t begin, int64_t end, void *context)
         for (int c = 0; c < 3; c++)
             spark[c] = sky * sky * (bright + k->sheen * edge * edge * edge * edge * outline_rgb[c]);
         /* clearer where it faces the viewer, denser towards its outline */
-        float side = 1 - fminf(1, fabsf(nv));
-        spark[3] = opacity < 1 ? opacity + (1 - opacity) * 0.9f * side * side : 1;
+        float side = 1 - fminf(1, fabsf(nv)), dense = j->l->over ? side * side * side : side * side;
+        spark[3] = opacity < 1 ? opacity + (1 - opacity) * 0.9f * dense : 1;
+        if (opacity < 1 && j->l->weight) spark[3] *= (float)j->l->weight[j->m->source[i]];
     }
 }
 

@@ -104,20 +104,20 @@ static void the_patients_left_is_marked_on_the_viewers_right_in_front_views(void
     assert_true(x > 150 && y < 100 && n > 0);
 }
 
-static void the_colour_bar_runs_from_low_to_high_upwards(void **state)
+static void the_colour_bar_runs_from_low_to_high_rightwards(void **state)
 {
     (void)state;
-    image im = blank(200, 300);
+    image im = blank(300, 200);
     pen *p = pen_on(&im);
     label_map m = {COLORMAP_COOLWARM, -3, 3, -3, {0, 0, 0}, "mm"};
-    label_color_bar(p, 150, 50, 20, 200, 12, &m);
+    label_color_bar(p, 50, 150, 200, 20, 12, &m);
     pen_close(&p);
-    const uint8_t *top = image_pixel(&im, 160, 51), *bottom = image_pixel(&im, 160, 248),
-                  *middle = image_pixel(&im, 160, 150);
-    assert_near(top[0], 180, 3);
-    assert_near(top[2], 38, 6);
-    assert_near(bottom[0], 59, 6);
-    assert_near(bottom[2], 192, 3);
+    const uint8_t *high = image_pixel(&im, 248, 160), *low = image_pixel(&im, 51, 160),
+                  *middle = image_pixel(&im, 150, 160);
+    assert_near(high[0], 180, 3);
+    assert_near(high[2], 38, 6);
+    assert_near(low[0], 59, 6);
+    assert_near(low[2], 192, 3);
     assert_near(middle[0], 221, 3);
     assert_near(middle[1], 221, 3);
     image_free(&im);
@@ -230,7 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scale_bar_is_as_long_as_it_says),
         cmocka_unit_test(the_patients_left_is_marked_on_the_viewers_right_in_front_views),
-        cmocka_unit_test(the_colour_bar_runs_from_low_to_high_upwards),
+        cmocka_unit_test(the_colour_bar_runs_from_low_to_high_rightwards),
         cmocka_unit_test(the_maps_are_the_published_ones),
         cmocka_unit_test(a_png_comes_back_as_it_went_with_its_texts),
         cmocka_unit_test(a_missing_font_is_refused_by_name),

@@ -246,7 +246,8 @@ static void the_map_shows_its_ends_and_no_data_is_grey(void **state)
     l.high = 5;
     uint8_t seen[3][3];
     for (int k = 0; k < 3; k++) {
-        for (int v = 0; v < 8; v++) value[v] = k == 0 ? -1 : k == 1 ? 7 : (double)NAN; /* beyond the ends: the ends */
+        for (int v = 0; v < 8; v++)
+            value[v] = k == 0 ? -1 : k == 1 ? 7 : (double)NAN; /* beyond the ends: the ends */
         image im = draw(&l, 1, &c);
         memcpy(seen[k], image_pixel(&im, 80, 100), 3);
         image_free(&im);
