@@ -20,7 +20,7 @@ static const char *const display_name[SEGMENT_COUNT] = {
 
 void pictures_subject_make(const pictures_input *in, pictures_subject *out)
 {
-    *out = (pictures_subject){.rims = cut_rims_find(in->at_rest, rim_reach_mm)};
+    *out = (pictures_subject){.at_rest = in->at_rest};
     subject *s = &out->shown;
     *s = (subject){.case_name = in->case_name,
                    .plan_text = in->plan_text,
@@ -38,9 +38,7 @@ void pictures_subject_make(const pictures_input *in, pictures_subject *out)
                             .before = rigid_identity(),
                             .after = in->move[i],
                             .kind = MATERIAL_BONE,
-                            .name = display_name[i],
-                            .rim = out->rims.piece[i],
-                            .rim_count = out->rims.count[i]};
+                            .name = display_name[i]};
         subject_segment_color((segment_id)i, p->rgb);
     }
 }
@@ -72,9 +70,21 @@ static bool measure_signed(pictures_subject *p, err *e)
 #endif
 }
 
+static void find_rims(pictures_subject *p)
+{
+    p->rims = cut_rims_find(p->at_rest, rim_reach_mm);
+    p->rims_known = true;
+    for (int i = 0, part = 0; i < SEGMENT_COUNT; i++) {
+        if (!p->at_rest->part[i].triangle_count) continue;
+        p->part[part].rim = p->rims.piece[i];
+        p->part[part++].rim_count = p->rims.count[i];
+    }
+}
+
 bool pictures_subject_measure(pictures_subject *p, panel_show show, err *e)
 {
     const subject *s = &p->shown;
+    if (show == SHOW_BONES && !p->rims_known) find_rims(p);
     if (show == SHOW_SIGNED && s->skin_after && !p->signed_mm) return measure_signed(p, e);
     if (show == SHOW_STRETCH && s->skin_after && !p->stretch_percent) {
         p->stretch_percent = NEW_ARRAY(double, s->skin_after->vertex_count);

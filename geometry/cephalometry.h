@@ -21,7 +21,7 @@ typedef struct ceph_measure {
     const char *name;    /* "SNA", "overjet" */
     const char *group;   /* "Steiner", "COGS", ... */
     const char *what;    /* how it is measured */
-    const char *unit;    /* "deg" or "mm" */
+    const char *unit;    /* "deg", "mm" or "%" */
     const char *points;  /* needed, space-separated; "Go" a midpoint, "Ar|Co": Co where Ar is missing, and said */
     ceph_norm men, women;
     const char *source;  /* of the norm; NULL where there is none */
@@ -30,7 +30,7 @@ typedef struct ceph_measure {
 
 extern const ceph_measure ceph_measures[];
 extern const int ceph_measure_count;
-enum { CEPH_MEASURES_MAX = 64, CEPH_NOTE_SIZE = 128 };
+enum { CEPH_MEASURES_MAX = 80, CEPH_NOTE_SIZE = 128 };
 
 typedef struct ceph_value {
     double value;              /* NaN: not available */

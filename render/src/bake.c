@@ -66,7 +66,10 @@ static void draw_triangle(float *near, const float *a, const float *b, const flo
     float abx = b[0] - a[0], aby = b[1] - a[1], acx = c[0] - a[0], acy = c[1] - a[1],
           area = abx * acy - aby * acx;
     if (!(area > 0)) return;
-    int x0 = (int)least(a[0], b[0], c[0]), y0 = (int)least(a[1], b[1], c[1]);
+    float left = least(a[0], b[0], c[0]), low = least(a[1], b[1], c[1]);
+    int x0 = (int)left, y0 = (int)low;
+    x0 += (float)x0 < left;
+    y0 += (float)y0 < low;
     int x1 = (int)-least(-a[0], -b[0], -c[0]), y1 = (int)-least(-a[1], -b[1], -c[1]);
     float per_area = 1 / area, bz = (b[2] - a[2]) * per_area, cz = (c[2] - a[2]) * per_area;
     for (int y = y0; y <= y1; y++)

@@ -169,13 +169,14 @@ static void write_legend(const gallery *g, pen *p, const image *im, double size)
     free(entry);
 }
 
-static void write_pose(panel_pose pose, pen *p, const image *im, double size)
+static void write_pose(panel_show show, panel_pose pose, pen *p, const image *im, double size)
 {
+    bool bones = show == SHOW_BONES;
     double middle = im->width / 2, y = im->height - 1.0 * size;
     if (pose == POSE_WIPE) {
         pen_line(p, middle, 0, middle, im->height, fmax(1, size / 9), paper);
         pen_text(p, middle - 0.6 * size, y, LABEL_RIGHT, size, true, ink, "before");
-        pen_text(p, middle + 0.6 * size, y, LABEL_LEFT, size, true, ink, "predicted");
+        pen_text(p, middle + 0.6 * size, y, LABEL_LEFT, size, true, ink, bones ? "planned" : "predicted");
     }
     if (pose == POSE_CHECKER) {
         int side = checker_side(im);
@@ -185,12 +186,13 @@ static void write_pose(panel_pose pose, pen *p, const image *im, double size)
             pen_line(p, 0, y0, im->width, y0, fmax(1, size / 18), paper);
         for (int k = 0; k < 2; k++)
             pen_text(p, (k + 0.5) * side, side - 0.5 * size, LABEL_CENTRE, 0.75 * size, true, ink,
-                     k ? "predicted" : "before");
+                     k ? (bones ? "planned" : "predicted") : "before");
     }
     if (pose == POSE_OVERLAY) {
-        label_entry entry[2] = {{"outline: before", {0}}, {"solid: predicted", {0}}};
+        label_entry entry[2] = {{"outline: before", {0}},
+                                {bones ? "solid: planned" : "solid: predicted", {0}}};
         vec_copy(ghost_rgb, entry[0].rgb);
-        material_color(MATERIAL_SKIN, entry[1].rgb);
+        material_color(bones ? MATERIAL_BONE : MATERIAL_SKIN, entry[1].rgb);
         double wide = pen_text_width(p, 0.75 * size, false, entry[1].text);
         label_legend(p, im->width - wide - 2.6 * size, 0.8 * size, 0.75 * size, entry, 2);
     }
@@ -202,7 +204,7 @@ static bool write_labels(const gallery *g, const panel *p, const camera *view, i
     double size = fmax(9, im->height / 45.0), scale = camera_scale(view, im->height);
     if (!g->style->labels) return true;
     if (!pen_open(im, &g->style->fonts, &marker, e)) return false;
-    if (panel_has_pose(p->show)) write_pose(p->pose, marker, im, size);
+    if (panel_has_pose(p->show)) write_pose(p->show, p->pose, marker, im, size);
     label_sides(marker, 0, 0, im->width, im->height, size, view, &g->s->frame);
     if (!(view->eye_mm > 0))
         label_scale_bar(marker, 0.9 * size, im->height - 1.0 * size, scale,

@@ -122,6 +122,18 @@ static bool draw_ground(const profile *f, image *out, err *e)
     return true;
 }
 
+/* The whole table has sixty rows: here are those that the plan changes, and the ones everybody asks for. */
+static bool has_row(int measure, const ceph_value *was, const ceph_value *is)
+{
+    static const char *const always[] = {"SNA",  "SNB",  "ANB",     "FMA",     "U1-FH",
+                                         "IMPA", "Wits", "overjet", "overbite"};
+    if (!isfinite(was[measure].value)) return false;
+    if (fabs(is[measure].value - was[measure].value) >= 0.05) return true;
+    for (size_t i = 0; i < sizeof always / sizeof *always; i++)
+        if (!strcmp(ceph_measures[measure].name, always[i])) return true;
+    return false;
+}
+
 static void norm_text(const ceph_norm *n, char text[32])
 {
     text[0] = 0;
@@ -135,29 +147,30 @@ static void draw_table(const profile *f, pen *p, double x, double right, int hei
     ceph_value was[CEPH_MEASURES_MAX], is[CEPH_MEASURES_MAX];
     ceph_evaluate(s->before, &s->frame, was);
     ceph_evaluate(s->after, &s->frame, is);
-    int rows = 1;
+    int rows = 3;
     const char *group = "";
     for (int i = 0; i < ceph_measure_count; i++) {
-        if (!isfinite(was[i].value)) continue;
+        if (!has_row(i, was, is)) continue;
         rows += 1 + (strcmp(group, ceph_measures[i].group) != 0);
         group = ceph_measures[i].group;
     }
-    double step = (height - 2.0 * f->size) / rows, size = fmin(step / 1.28, 0.9 * f->size),
+    double step = fmin((height - 2.0 * f->size) / rows, 1.3 * f->size), size = step / 1.28,
            y = step + 0.4 * f->size;
-    double norm = sex ? 8.5 * size : 15 * size,
+    double norm = sex ? 8.5 * size : 15.6 * size,
            column[3] = {right - norm - 10 * size, right - norm - 4.8 * size, right - norm};
     static const char *const head[] = {"before", "planned", "change"};
     for (int k = 0; k < 3; k++)
         pen_text(p, column[k], y, LABEL_RIGHT, size, true, k < 2 ? profile_rgb[k] : ink, head[k]);
     group = "";
+    bool substitute = false;
     if (sex != 'm')
-        pen_text(p, sex ? right : right - 7.4 * size, y, LABEL_RIGHT, size, true, ink,
+        pen_text(p, sex ? right : right - 7.8 * size, y, LABEL_RIGHT, size, true, ink,
                  sex ? "norm, women" : "women");
     if (sex != 'f') pen_text(p, right, y, LABEL_RIGHT, size, true, ink, sex ? "norm, men" : "men");
     for (int i = 0; i < ceph_measure_count; i++) {
         const ceph_measure *m = ceph_measures + i;
         char text[32], women[32], men[32];
-        if (!isfinite(was[i].value)) continue; /* the table on the command line says what it needs */
+        if (!has_row(i, was, is)) continue;
         if (strcmp(m->group, group)) {
             group = m->group;
             y += step;
@@ -165,7 +178,9 @@ static void draw_table(const profile *f, pen *p, double x, double right, int hei
             pen_text(p, x, y, LABEL_LEFT, size, true, ink, m->group);
         }
         y += step;
-        snprintf(text, sizeof text, "%s, %s", m->name, strcmp(m->unit, "deg") ? m->unit : "°");
+        snprintf(text, sizeof text, "%s, %s%s", m->name, strcmp(m->unit, "deg") ? m->unit : "°",
+                 *was[i].note ? " *" : "");
+        substitute |= *was[i].note != 0;
         pen_text(p, x + 0.8 * size, y, LABEL_LEFT, size, false, ink, text);
         double change = is[i].value - was[i].value,
                value[3] = {was[i].value, is[i].value, fabs(change) < 0.05 ? 0 : change};
@@ -178,9 +193,13 @@ static void draw_table(const profile *f, pen *p, double x, double right, int hei
         norm_text(&m->women, women);
         norm_text(&m->men, men);
         if (sex != 'm')
-            pen_text(p, sex ? right : right - 7.4 * size, y, LABEL_RIGHT, size, false, faint, women);
+            pen_text(p, sex ? right : right - 7.8 * size, y, LABEL_RIGHT, size, false, faint, women);
         if (sex != 'f') pen_text(p, right, y, LABEL_RIGHT, size, false, faint, men);
     }
+    pen_text(p, x, y += 1.5 * step, LABEL_LEFT, 0.85 * size, false, faint,
+             substitute
+                 ? "What the plan changes, of all measures. * a neighbour stands for a missing landmark."
+                 : "What the plan changes, of all measures.");
 }
 
 bool tracing_draw(gallery *g, int width, int height, image *out, err *e)
