@@ -56,7 +56,7 @@ static const struct argp_option options[] = {
     {"perspective", KEY_PERSPECTIVE, "DEG", 0, "Full vertical angle (default: none, one scale everywhere)",
      1},
     {"range", KEY_RANGE, "END", 0,
-     "End of the colour range in mm, or % of stretch (from the data); signed: to both sides", 2},
+     "End of the colour range in mm, or % of stretch (from the data; signed: 10, to both sides)", 2},
     {"skin-opacity", KEY_OPACITY, "0..1", 0, "Of the skin over the bones (0.25)", 2},
     {"sex", KEY_SEX, "f|m", 0, "Norms of women or men beside the tracing (both)", 2},
     {"no-labels", KEY_NO_LABELS, NULL, 0, "Nothing but the picture", 2},
@@ -256,7 +256,8 @@ int command_render(int argc, char **argv)
         NULL};
     struct input in = {.width = PICTURES_WIDTH, .height = PICTURES_HEIGHT, .style = gallery_style_default()};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
-    in.style.displacement_mm = in.style.signed_mm = in.style.stretch_percent = in.range;
+    in.style.displacement_mm = in.style.stretch_percent = in.range;
+    in.style.signed_mm = in.range > 0 ? in.range : 10; /* fixed: pictures of different plans compare */
     err e = {0};
     drawn d = {0};
     char folder[1200];

@@ -48,6 +48,13 @@ static bool encode(png_structp png, png_infop info, FILE *f, const image *im, pn
     return true;
 }
 
+static bool ascii(const char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text > 126) return false;
+    return true;
+}
+
 bool png_file_write(const image *im, const png_note *texts, int text_count, const char *path, err *e)
 {
     assert(im->rgba);
@@ -61,10 +68,11 @@ bool png_file_write(const image *im, const png_note *texts, int text_count, cons
     png_infop info = png ? png_create_info_struct(png) : NULL;
     png_textp chunk = mem_alloc((size_t)text_count, sizeof *chunk);
     for (int i = 0; i < text_count; i++) {
-        chunk[i].compression = PNG_TEXT_COMPRESSION_NONE;
+        chunk[i].compression = ascii(texts[i].value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
         chunk[i].key = (char *)texts[i].key;
         chunk[i].text = (char *)texts[i].value;
-        chunk[i].text_length = strlen(texts[i].value);
+        *(chunk[i].compression == PNG_TEXT_COMPRESSION_NONE ? &chunk[i].text_length : &chunk[i].itxt_length) =
+            strlen(texts[i].value);
     }
     png_bytepp rows = mem_alloc((size_t)im->height, sizeof *rows);
     for (int y = 0; y < im->height; y++) rows[y] = image_pixel(im, 0, y);

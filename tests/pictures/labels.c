@@ -158,8 +158,8 @@ static void a_png_comes_back_as_it_went_with_its_texts(void **state)
     err e = {0};
     image im = image_new(37, 19), back = {0};
     for (int i = 0; i < 4 * 37 * 19; i++) im.rgba[i] = (uint8_t)(i * 7 + i / 5);
-    const png_note notes[2] = {{"Software", "gnathos"}, {"Plan", "maxilla +5 mm"}};
-    assert_ok(png_file_write(&im, notes, 2, "round_trip.png", &e));
+    const png_note notes[3] = {{"Software", "gnathos"}, {"Plan", "maxilla +5 mm"}, {"Case", "M\u00fcller \u2013 3\u00b0"}};
+    assert_ok(png_file_write(&im, notes, 3, "round_trip.png", &e));
     assert_ok(png_file_read("round_trip.png", &back, &e));
     assert_int_equal(image_difference(&im, &back, 0), 0);
     image_free(&back);
@@ -167,18 +167,21 @@ static void a_png_comes_back_as_it_went_with_its_texts(void **state)
     assert_ok(png_file_note("round_trip.png", "Plan", &text, &e));
     assert_string_equal(text, "maxilla +5 mm");
     free(text);
+    assert_ok(png_file_note("round_trip.png", "Case", &text, &e));
+    assert_string_equal(text, notes[2].value);
+    free(text);
     assert_ok(png_file_note("round_trip.png", "tIME", &text, &e));
     assert_null(text);
     /* Opaque images go as RGB and come back opaque. */
     for (int i = 3; i < 4 * 37 * 19; i += 4) im.rgba[i] = 255;
-    assert_ok(png_file_write(&im, notes, 2, "round_trip.png", &e));
+    assert_ok(png_file_write(&im, notes, 3, "round_trip.png", &e));
     assert_ok(png_file_read("round_trip.png", &back, &e));
     assert_int_equal(image_difference(&im, &back, 0), 0);
     image_free(&back);
     assert_int_equal(truncate("round_trip.png", 200), 0);
     assert_refused(png_file_read("round_trip.png", &back, &e), ERR_INPUT);
     assert_refused(png_file_read("not_there.png", &back, &e), ERR_INPUT);
-    assert_refused(png_file_write(&im, notes, 2, "no/such/folder/x.png", &e), ERR_RESOURCE);
+    assert_refused(png_file_write(&im, notes, 3, "no/such/folder/x.png", &e), ERR_RESOURCE);
     assert_refused(png_file_write(&im, &(png_note){"", "x"}, 1, "bad_note.png", &e), ERR_USAGE);
     assert_int_equal(access("bad_note.png", F_OK), -1);
     remove("round_trip.png");
