@@ -115,9 +115,10 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
                          .skin_after = o->skin,
                          .at_rest = &o->prepared->segments,
                          .move = o->moves->move,
-                         .points = &o->prepared->points,
+                         .before = &o->prepared->points,
+                         .after = &o->points->after,
                          .frame = &o->prepared->frame};
-    bool ok = mkdir(folder, 0777) == 0 ? pictures_write(&in, folder, false, e)
+    bool ok = mkdir(folder, 0777) == 0 ? pictures_write(&in, folder, e)
                                        : err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made");
     free(folder);
     return ok;
