@@ -25,9 +25,8 @@ static json_t *plan_json(const outcome *o)
         for (int i = 0; i < 16; i++) json_array_append_new(matrix, json_real(m[i]));
         json_object_set_new(segment, segment_name((segment_id)s), json_pack("{so}", "matrix", matrix));
     }
-    for (int b = 0; b < BOUND_COUNT; b++)
-        if (isfinite(o->moves->measure[b]))
-            json_object_set_new(measure, bound_default[b].name, json_real(o->moves->measure[b]));
+    for (int l = 0; l < LIMIT_MOVE_COUNT; l++)
+        json_object_set_new(measure, limit_default[l].name, json_real(o->moves->measure[l]));
     return json_pack("{ss ss so so}", "name", o->plan->name, "override", o->plan->override, "segments",
                      segment, "measures", measure);
 }

@@ -1,0 +1,111 @@
+#include "app/judge_parts.h"
+#include "geometry/mem.h"
+#include "geometry/nearest.h"
+#include "geometry/vec.h"
+#include <assert.h>
+#include <stdlib.h>
+
+finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value,
+                       bool estimated, const char *note)
+{
+    assert(out->count < FINDINGS_MAX);
+    finding *f = &out->finding[out->count];
+    *f = (finding){.limit = id,
+                   .where = where,
+                   .value = value,
+                   .level = limit_judge(&c->limits[id], value),
+                   .margin = isnan(value) ? HUGE_VAL : limit_margin(&c->limits[id], value),
+                   .estimated = estimated,
+                   .segment_a = -1,
+                   .segment_b = -1,
+                   .note = note};
+    if (estimated && f->level == LIMIT_STOP) f->level = LIMIT_CAUTION;
+    if (f->level > out->worst || (f->level == out->worst && out->reason >= 0 &&
+                                  f->margin < out->finding[out->reason].margin))
+        out->reason = out->count;
+    if (f->level > out->worst) out->worst = f->level;
+    out->count++;
+    return f;
+}
+
+bool judge_landmark(const judge *j, const plan_moves *m, const char *label, double out[3])
+{
+    const landmarks *l = &j->prepared->points;
+    const landmark *p = landmarks_find(l, label);
+    if (!p) return false;
+    rigid_apply(&m->move[j->carrier[p - l->point]], p->xyz, out);
+    return true;
+}
+
+static bool find_carriers(judge *j, err *e)
+{
+    const prepared *p = j->prepared;
+    nearest *tree[SEGMENT_COUNT] = {0};
+    bool ok = true;
+    for (int s = 0; s < SEGMENT_COUNT; s++)
+        if (p->segments.part[s].triangle_count) ok = ok && nearest_create(&p->segments.part[s], &tree[s], e);
+    j->carrier = NEW_ARRAY(int, p->points.count);
+    for (int32_t i = 0; ok && i < p->points.count; i++) {
+        double least = HUGE_VAL;
+        for (int s = 0; s < SEGMENT_COUNT; s++) {
+            double d = tree[s] ? nearest_point(tree[s], p->points.point[i].xyz, NULL, NULL) : HUGE_VAL;
+            if (d < least) {
+                least = d;
+                j->carrier[i] = s;
+            }
+        }
+    }
+    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&tree[s]);
+    return ok;
+}
+
+/* In occlusion the cusps of the first molars overlap by 1 to 2 mm. */
+static void find_bite(judge *j)
+{
+    const double apart_mm = 3;
+    static const char *const pair[3][2] = {{"U6_L", "L6_L"}, {"U6_R", "L6_R"}, {"U1", "L1"}};
+    const landmarks *l = &j->prepared->points;
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < (count ? 2 : 3); i++) { /* incisors only where no molars are */
+        const landmark *upper = landmarks_find(l, pair[i][0]), *lower = landmarks_find(l, pair[i][1]);
+        double d[3];
+        if (!upper || !lower) continue;
+        vec_sub(upper->xyz, lower->xyz, d);
+        sum += vec_dot(d, j->prepared->frame.up);
+        count++;
+    }
+    j->jaws_apart = count && sum / count > apart_mm;
+}
+
+bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
+{
+    judge *j = NEW_ARRAY(judge, 1);
+    j->patient = c;
+    j->prepared = p;
+    find_bite(j);
+    if (!find_carriers(j, e)) {
+        judge_free(&j);
+        return false;
+    }
+    *out = j;
+    return true;
+}
+
+void judge_free(judge **j)
+{
+    if (!*j) return;
+    free((*j)->carrier);
+    free(*j);
+    *j = NULL;
+}
+
+void judge_plan(const judge *j, const plan_moves *m, judgement *out)
+{
+    out->count = 0;
+    out->worst = LIMIT_NOT_JUDGED;
+    out->reason = -1;
+    judge_moves(j, m, out);
+    judge_bite(j, m, out);
+    judge_cuts(j, out);
+}
