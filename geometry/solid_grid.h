@@ -1,0 +1,23 @@
+/* solid_grid: inside or outside of a closed surface, exact and fast, for very many points.
+ *
+ * Space is cut into cubes that know the triangles within them and whether one point of theirs is inside; any other
+ * point of the cube is compared with that one. */
+#pragma once
+#include "geometry/surface.h"
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct solid_grid solid_grid; /* queries are const and thread-safe */
+
+/* Borrows s until solid_grid_free. Refuses (ERR_GEOMETRY) an empty surface and one that is not closed. */
+bool solid_grid_make(const surface *s, double step_mm, solid_grid **out, err *e) MUST_CHECK;
+void solid_grid_free(solid_grid **g); /* idempotent */
+/* By parity: shells that overlap must be united first. */
+bool solid_grid_inside(const solid_grid *g, const double p[3]);
+/* The surface is at least this far from p, mm; 0 near it. Cheap. */
+double solid_grid_clear(const solid_grid *g, const double p[3]);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,214 @@
+#include "geometry/solid_grid.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include <stdlib.h>
+#include <string.h>
+
+struct solid_grid {
+    const surface *s;
+    double low[3], step;
+    int32_t n[3];
+    int32_t *start; /* [cells + 1] into item */
+    int32_t *item;  /* triangles whose box meets the cube */
+    uint8_t *away;  /* cubes to the nearest one with triangles, in the maximum norm, at most 255 */
+    uint8_t *inside; /* of the cube's own point */
+};
+
+/* Of the cube's own point, in cubes: off any plane that a surface may have. */
+static const double own_point[3] = {0.5137, 0.4789, 0.5227};
+
+static size_t cell(const solid_grid *g, const int32_t i[3])
+{
+    return ((size_t)i[2] * (size_t)g->n[1] + (size_t)i[1]) * (size_t)g->n[0] + (size_t)i[0];
+}
+
+static void locate(const solid_grid *g, const double p[3], int32_t i[3])
+{
+    for (int c = 0; c < 3; c++) i[c] = (int32_t)floor((p[c] - g->low[c]) / g->step);
+}
+
+static bool within(const solid_grid *g, const int32_t i[3])
+{
+    for (int c = 0; c < 3; c++)
+        if (i[c] < 0 || i[c] >= g->n[c]) return false;
+    return true;
+}
+
+/* Where the straight way from p by `way` crosses the triangle, as a share of it; false if it does not. */
+static bool crosses(const surface *s, int32_t t, const double p[3], const double way[3], double *share)
+{
+    const int32_t *v = s->tri + 3 * (size_t)t;
+    const double *a = s->xyz + 3 * (size_t)v[0];
+    double e1[3], e2[3], h[3], o[3], q[3];
+    vec_sub(s->xyz + 3 * (size_t)v[1], a, e1);
+    vec_sub(s->xyz + 3 * (size_t)v[2], a, e2);
+    vec_cross(way, e2, h);
+    double det = vec_dot(e1, h);
+    if (det == 0) return false;
+    vec_sub(p, a, o);
+    double u = vec_dot(o, h) / det;
+    if (!(u >= 0 && u <= 1)) return false;
+    vec_cross(o, e1, q);
+    double w = vec_dot(way, q) / det;
+    if (!(w >= 0 && u + w <= 1)) return false;
+    *share = vec_dot(e2, q) / det;
+    return *share >= 0 && *share < 1;
+}
+
+static int crossings(const solid_grid *g, size_t c, const double p[3], const double way[3], double from, double to)
+{
+    int count = 0;
+    double share;
+    for (int32_t k = g->start[c]; k < g->start[c + 1]; k++)
+        count += crosses(g->s, g->item[k], p, way, &share) && share >= from && share < to;
+    return count;
+}
+
+/* Counts the triangle in every cube that its box meets, or enters it there once item exists. */
+static void enter(solid_grid *g, int32_t t, int32_t *fill)
+{
+    double low[3], high[3];
+    int32_t i[3], from[3], to[3];
+    for (int c = 0; c < 3; c++) {
+        low[c] = HUGE_VAL;
+        high[c] = -HUGE_VAL;
+        for (int k = 0; k < 3; k++) {
+            double x = g->s->xyz[3 * (size_t)g->s->tri[3 * (size_t)t + (size_t)k] + (size_t)c];
+            low[c] = fmin(low[c], x);
+            high[c] = fmax(high[c], x);
+        }
+    }
+    locate(g, low, from);
+    locate(g, high, to);
+    for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
+        for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
+            for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
+                size_t c = cell(g, i);
+                if (g->item)
+                    g->item[fill[c]++] = t;
+                else
+                    g->start[c + 1]++;
+            }
+}
+
+static void sort_triangles(solid_grid *g, size_t cells)
+{
+    g->start = NEW_ARRAY(int32_t, cells + 1);
+    for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, NULL);
+    for (size_t c = 0; c < cells; c++) g->start[c + 1] += g->start[c];
+    int32_t *fill = COPY_ARRAY(int32_t, g->start, cells);
+    g->item = NEW_ARRAY(int32_t, g->start[cells]);
+    for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, fill);
+    free(fill);
+}
+
+/* Distances to full cubes, by two sweeps over half of the neighbours each. */
+static void sweep(solid_grid *g, int way)
+{
+    int32_t i[3], k[3];
+    for (int32_t a = 0; a < g->n[2]; a++)
+        for (int32_t b = 0; b < g->n[1]; b++)
+            for (int32_t c = 0; c < g->n[0]; c++) {
+                i[2] = way > 0 ? a : g->n[2] - 1 - a;
+                i[1] = way > 0 ? b : g->n[1] - 1 - b;
+                i[0] = way > 0 ? c : g->n[0] - 1 - c;
+                size_t at = cell(g, i);
+                int least = g->away[at];
+                for (int d = 0; d < 13 && least > 1; d++) { /* the neighbours already passed */
+                    k[0] = i[0] + way * (d % 3 - 1);
+                    k[1] = i[1] + way * (d / 3 % 3 - 1);
+                    k[2] = i[2] + way * (d / 9 - 1);
+                    if (within(g, k) && g->away[cell(g, k)] + 1 < least) least = g->away[cell(g, k)] + 1;
+                }
+                g->away[at] = (uint8_t)least;
+            }
+}
+
+/* Along each row of cubes from outside. False if a row does not end outside. */
+static bool find_inside(solid_grid *g)
+{
+    int32_t i[3];
+    const double way[3] = {g->step, 0, 0};
+    const double wall = 1 - own_point[0]; /* the next cube begins at this share of the way */
+    for (i[2] = 0; i[2] < g->n[2]; i[2]++)
+        for (i[1] = 0; i[1] < g->n[1]; i[1]++) {
+            int in = 0;
+            for (i[0] = 0; i[0] + 1 < g->n[0]; i[0]++) {
+                size_t c = cell(g, i);
+                if (!g->away[c] || !g->away[c + 1]) {
+                    double p[3];
+                    for (int k = 0; k < 3; k++) p[k] = g->low[k] + g->step * (i[k] + own_point[k]);
+                    in ^= (crossings(g, c, p, way, 0, wall) + crossings(g, c + 1, p, way, wall, 1)) & 1;
+                }
+                g->inside[c + 1] = (uint8_t)in;
+            }
+            if (in) return false;
+        }
+    return true;
+}
+
+bool solid_grid_make(const surface *s, double step_mm, solid_grid **out, err *e)
+{
+    if (!s->triangle_count) return err_set(e, ERR_GEOMETRY, "a surface without triangles has no inside");
+    solid_grid *g = NEW_ARRAY(solid_grid, 1);
+    double high[3];
+    g->s = s;
+    g->step = step_mm;
+    surface_bounds(s, g->low, high);
+    size_t cells = 1;
+    for (int c = 0; c < 3; c++) {
+        g->low[c] -= 1.5 * step_mm; /* the outermost cubes are empty */
+        g->n[c] = (int32_t)ceil((high[c] - g->low[c]) / step_mm) + 2;
+        cells *= (size_t)g->n[c];
+    }
+    sort_triangles(g, cells);
+    g->away = NEW_ARRAY(uint8_t, cells);
+    g->inside = NEW_ARRAY(uint8_t, cells);
+    for (size_t c = 0; c < cells; c++) g->away[c] = g->start[c] == g->start[c + 1] ? 255 : 0;
+    sweep(g, 1);
+    sweep(g, -1);
+    if (!find_inside(g)) {
+        solid_grid_free(&g);
+        return err_set(e, ERR_GEOMETRY, "the surface is not closed");
+    }
+    *out = g;
+    return true;
+}
+
+void solid_grid_free(solid_grid **g)
+{
+    if (!*g) return;
+    free((*g)->start);
+    free((*g)->item);
+    free((*g)->away);
+    free((*g)->inside);
+    free(*g);
+    *g = NULL;
+}
+
+bool solid_grid_inside(const solid_grid *g, const double p[3])
+{
+    int32_t i[3];
+    double own[3], way[3];
+    locate(g, p, i);
+    if (!within(g, i)) return false;
+    size_t c = cell(g, i);
+    if (g->away[c]) return g->inside[c];
+    for (int k = 0; k < 3; k++) own[k] = g->low[k] + g->step * (i[k] + own_point[k]);
+    vec_sub(own, p, way);
+    return (crossings(g, c, p, way, 0, 1) & 1) != g->inside[c];
+}
+
+double solid_grid_clear(const solid_grid *g, const double p[3])
+{
+    int32_t i[3];
+    locate(g, p, i);
+    if (within(g, i)) {
+        int away = g->away[cell(g, i)];
+        return away > 1 ? (away - 1) * g->step : 0;
+    }
+    double d[3];
+    for (int c = 0; c < 3; c++)
+        d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
+    return vec_norm(d);
+}
