@@ -78,16 +78,33 @@ static void find_bite(judge *j)
     j->jaws_apart = count && sum / count > apart_mm;
 }
 
+static bool make_bodies(judge *j, err *e)
+{
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        const surface *part = &j->prepared->segments.part[s];
+        clash_params p = clash_params_default();
+        uint8_t *kind = NULL;
+        if (!part->triangle_count) continue;
+        if (s == SEGMENT_CRANIUM || s == SEGMENT_DISTAL) p.cell_mm = 0; /* never the smaller one of a cut */
+        if (s == SEGMENT_MAXILLA || s == SEGMENT_DISTAL) kind = judge_crowns(j->prepared, (segment_id)s, &j->no_crowns);
+        bool ok = clash_body_make(part, kind, &p, &j->body[s], e);
+        free(kind);
+        if (!ok) return err_prefix(e, "the %s segment", segment_name((segment_id)s));
+    }
+    return true;
+}
+
 bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
 {
     judge *j = NEW_ARRAY(judge, 1);
     j->patient = c;
     j->prepared = p;
     find_bite(j);
-    if (!find_carriers(j, e)) {
+    if (!find_carriers(j, e) || !make_bodies(j, e) || !judge_bones_make(j, e)) {
         judge_free(&j);
         return false;
     }
+    judge_teeth_make(j);
     *out = j;
     return true;
 }
@@ -95,7 +112,10 @@ bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
 void judge_free(judge **j)
 {
     if (!*j) return;
+    judge_bones_free(*j);
+    for (int s = 0; s < SEGMENT_COUNT; s++) clash_body_free(&(*j)->body[s]);
     free((*j)->carrier);
+    free((*j)->bite);
     free(*j);
     *j = NULL;
 }
@@ -106,6 +126,8 @@ void judge_plan(const judge *j, const plan_moves *m, judgement *out)
     out->worst = LIMIT_NOT_JUDGED;
     out->reason = -1;
     judge_moves(j, m, out);
+    judge_bones(j, m, out);
+    judge_teeth(j, m, out);
     judge_bite(j, m, out);
     judge_cuts(j, out);
 }

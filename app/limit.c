@@ -23,7 +23,8 @@ limit_level limit_judge(const limit_range *r, double value)
 
 double limit_margin(const limit_range *r, double value)
 {
-    double below = r->stop[0] <= -LIMIT_OPEN ? HUGE_VAL : value - r->stop[0],
+    bool never_negative = r->stop[0] == 0 && r->fine[0] == 0;
+    double below = r->stop[0] <= -LIMIT_OPEN || never_negative ? HUGE_VAL : value - r->stop[0],
            above = r->stop[1] >= LIMIT_OPEN ? HUGE_VAL : r->stop[1] - value;
     return fmin(below, above);
 }

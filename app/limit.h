@@ -63,6 +63,8 @@
       "a gap above 5 mm needs a graft (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 28)")              \
     X(BSSO_BUCCAL_GAP, bsso_buccal_gap_mm, "mm", -LIMIT_OPEN, 8, -LIMIT_OPEN, 13, "opening of the buccal cut",        \
       "it opens by the advancement, for which see mandible_advance_mm, and the saw's width")                          \
+    X(BSSO_STEP, bsso_step_mm, "mm", 0, 4, 0, 10, "step of the jaw's border at the buccal cut",                        \
+      "own limit, no published number; a notch that is felt")                                                         \
     X(BSSO_CONTACT, bsso_contact_mm2, "mm2", 200, LIMIT_OPEN, 80, LIMIT_OPEN,                                         \
       "bone that meets bone in a sagittal split", "own limit, no published number; room for three screws")            \
     X(CHIN_GAP, chin_gap_mm, "mm", -LIMIT_OPEN, 3, -LIMIT_OPEN, 5, "opening of the chin cut",                         \
@@ -152,6 +154,7 @@ extern const limit limit_default[LIMIT_COUNT];
 
 /* Rounding of rotations and frames is not a breach. */
 limit_level limit_judge(const limit_range *r, double value);
-/* To the nearer end of the stop range, positive inside; infinite where it has no end. */
+/* To the nearer end of the stop range, positive inside; infinite where it has no end. Two ranges that both begin at 0
+ * are of something that is never negative: that end does not count. */
 double limit_margin(const limit_range *r, double value);
 const char *limit_level_name(limit_level level); /* "not judged", "fine", "caution", "stop" */

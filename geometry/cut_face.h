@@ -34,7 +34,7 @@ cut_face cut_face_towards(const cut_face *f, const double way[3], double cosine,
 typedef struct cut_contact {
     double mm2;      /* of the face that is within touch_mm of the other bone's face, or in the bone itself */
     double facing_mm2, gap_mm; /* of what still faces it within 10 mm: the area, the mean opening (NaN: none) */
-    double trim_mm;  /* greatest depth of bone, along the face's normal, that must go from this side */
+    double trim_mm;  /* of the face within the other bone, the farthest from the other's face: bone that must go */
     double place[3]; /* of that, in the frame of the other bone */
 } cut_contact;
 

@@ -159,12 +159,11 @@ cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, cons
     const solid_grid *grid = clash_body_grid(other);
     for (int32_t i = 0; i < f->count; i++) {
         const cut_sample *s = &f->sample[i];
-        double p[3], n[3], at[3], back[3];
+        double p[3], n[3], at[3];
         rigid_apply(rel, s->p, p);
         rigid_rotate(rel, s->n, n);
         if (solid_grid_inside(grid, p)) {
-            vec_scale(n, -1, back);
-            double depth = nearest_ray(clash_body_tree(other), p, back, at, NULL) ? vec_distance(p, at) : 0;
+            double depth = nearest_point(other_face, p, NULL, NULL);
             if (depth > c.trim_mm) {
                 c.trim_mm = depth;
                 vec_copy(p, c.place);
