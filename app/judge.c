@@ -78,11 +78,33 @@ static void find_bite(judge *j)
     j->jaws_apart = count && sum / count > apart_mm;
 }
 
+/* Where any bone may come to that a plan moves: the skull elsewhere is left out. */
+static void find_reach(const prepared *p, double box[6])
+{
+    const double reach_mm = 25;
+    for (int c = 0; c < 3; c++) {
+        box[c] = HUGE_VAL;
+        box[3 + c] = -HUGE_VAL;
+    }
+    for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++) {
+        double low[3], high[3];
+        if (!p->segments.part[s].triangle_count) continue;
+        surface_bounds(&p->segments.part[s], low, high);
+        for (int c = 0; c < 3; c++) {
+            box[c] = fmin(box[c], low[c] - reach_mm);
+            box[3 + c] = fmax(box[3 + c], high[c] + reach_mm);
+        }
+    }
+}
+
 static bool make_bodies(judge *j, err *e)
 {
+    double box[6];
+    find_reach(j->prepared, box);
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         const surface *part = &j->prepared->segments.part[s];
         clash_params p = clash_params_default();
+        if (s == SEGMENT_CRANIUM) p.box = box;
         uint8_t *kind = NULL;
         if (!part->triangle_count) continue;
         if (s == SEGMENT_CRANIUM || s == SEGMENT_DISTAL) p.cell_mm = 0; /* never the smaller one of a cut */

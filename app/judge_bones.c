@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const double spacing_mm = 1.2; /* of the samples on a cut's face */
+static const double spacing_mm = 2; /* of the samples on a cut's face */
 
 static const struct cut_row {
     segment_id still, moved;
@@ -118,25 +118,25 @@ static void put_place(finding *f, const plan_moves *m, segment_id frame, const d
 }
 
 typedef struct cut_state {
-    cut_contact contact, plate;
-    double trim_mm, trim_place[3], mm3; /* place in the frame of the still bone */
     rigid rel;
+    cut_contact contact;
+    clash_spot trim; /* place in the frame of the still bone */
+    double mm3;
 } cut_state;
 
 static void measure(const judge *j, const judge_cut *c, const plan_moves *m, cut_state *out)
 {
     bool moves = judge_relative(m, c->still, c->moved, &out->rel);
     rigid back = rigid_inverse(&out->rel);
-    double touch = j->patient->cuts.kerf_mm + 0.5;
-    out->contact = cut_contact_measure(&c->face, j->body[c->still], c->back_tree, &out->rel, touch);
-    out->plate = is_sagittal(c) ? cut_contact_measure(&c->plate, j->body[c->still], c->back_tree, &out->rel, touch)
-                                : out->contact;
-    cut_contact other = cut_contact_measure(&c->back, j->body[c->moved], c->face_tree, &back, touch);
-    out->trim_mm = fmax(out->contact.trim_mm, other.trim_mm);
-    if (other.trim_mm > out->contact.trim_mm)
-        rigid_apply(&out->rel, other.place, out->trim_place);
-    else
-        vec_copy(out->contact.place, out->trim_place);
+    bool split = is_sagittal(c);
+    out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
+                                       &out->rel, j->patient->cuts.kerf_mm + 0.5);
+    out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
+    clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
+    if (other.mm > out->trim.mm) {
+        out->trim = other;
+        rigid_apply(&out->rel, other.place, out->trim.place);
+    }
     out->mm3 = moves ? clash_volume(j->body[c->still], j->body[c->moved], &out->rel) : 0;
 }
 
@@ -170,7 +170,7 @@ static void add_contact(const judge *j, const cut_state *state, limit_id id, jud
     for (int i = 0; i < JUDGE_CUTS; i++) {
         const judge_cut *c = &j->cut[i];
         if (!c->there || c->contact != id) continue;
-        add(j, out, id, c->where, state[i].plate.mm2, c->still, c->moved);
+        add(j, out, id, c->where, state[i].contact.mm2, c->still, c->moved);
         count++;
     }
     if (!count) judgement_add(out, j->patient, id, "", (double)NAN, false, "no such cut");
@@ -182,7 +182,7 @@ static void add_splits(const judge *j, const cut_state *state, judgement *out)
     for (int i = 0; i < JUDGE_CUTS; i++) {
         const judge_cut *c = &j->cut[i];
         if (!c->there || !is_sagittal(c)) continue;
-        finding *f = add(j, out, LIMIT_BSSO_GAP, c->where, state[i].plate.gap_mm, c->still, c->moved);
+        finding *f = add(j, out, LIMIT_BSSO_GAP, c->where, state[i].contact.gap_mm, c->still, c->moved);
         if (isnan(f->value)) f->note = "the plates do not face each other any more; see bsso_contact_mm2";
         count++;
     }
@@ -196,9 +196,9 @@ static void add_trims(const judge *j, const plan_moves *m, const cut_state *stat
         for (int i = 0; i < JUDGE_CUTS; i++) {
             const judge_cut *c = &j->cut[i];
             if (!c->there) continue;
-            finding *f = add(j, out, (limit_id)l, cut_name(c), l == LIMIT_TRIM_DEPTH ? state[i].trim_mm : state[i].mm3,
+            finding *f = add(j, out, (limit_id)l, cut_name(c), l == LIMIT_TRIM_DEPTH ? state[i].trim.mm : state[i].mm3,
                              c->still, c->moved);
-            if (state[i].trim_mm > 0) put_place(f, m, c->still, state[i].trim_place);
+            if (state[i].trim.found) put_place(f, m, c->still, state[i].trim.place);
             count++;
         }
         if (!count) judgement_add(out, j->patient, (limit_id)l, "", (double)NAN, false, "the case has no cut");

@@ -102,16 +102,13 @@ static int count_contacts(const judge *j, const rigid *rel)
     enum { MOST = 64 };
     double found[MOST][3];
     int count = 0;
-    const clash_body *upper = j->body[SEGMENT_MAXILLA];
+    const solid_grid *grid = clash_body_grid(j->body[SEGMENT_MAXILLA]);
     for (int32_t i = 0; i < j->bite_count && count < MOST; i++) {
         double p[3];
         bool known = false;
         rigid_apply(rel, j->bite + 3 * (size_t)i, p);
-        if (solid_grid_clear(clash_body_grid(upper), p) > touch_mm) continue;
         for (int k = 0; k < count && !known; k++) known = vec_distance(found[k], p) < apart_mm;
-        if (known || (!solid_grid_inside(clash_body_grid(upper), p) &&
-                      nearest_point(clash_body_tree(upper), p, NULL, NULL) > touch_mm))
-            continue;
+        if (known || !(solid_grid_inside(grid, p) || solid_grid_touches(grid, p, touch_mm))) continue;
         vec_copy(p, found[count++]);
     }
     return count;

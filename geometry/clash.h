@@ -10,11 +10,13 @@ extern "C" {
 #endif
 
 typedef struct clash_params {
-    double cell_mm;  /* of the lattice that measures volumes; 0: the body is never the moved one of clash_volume */
-    double tolerance_mm; /* of depths and distances */
+    double cell_mm; /* of the lattice that measures volumes; 0: the body is never the moved one of clash_volume */
+    double step_mm; /* of the grid that tells inside from outside; smaller is faster and needs more memory */
+    double tolerance_mm;     /* of depths and distances */
+    const double *box; /* [6] low, high: only this part of the body takes part in the queries; NULL: all of it */
 } clash_params;
 
-clash_params clash_params_default(void); /* 0.5, 0.02 */
+clash_params clash_params_default(void); /* 0.7, 0.7, 0.02, all */
 
 typedef struct clash_body clash_body;
 

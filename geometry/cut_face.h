@@ -32,15 +32,16 @@ void cut_face_free(cut_face *f);
 cut_face cut_face_towards(const cut_face *f, const double way[3], double cosine, bool two_sided);
 
 typedef struct cut_contact {
-    double mm2;      /* of the face that is within touch_mm of the other bone's face, or in the bone itself */
-    double facing_mm2, gap_mm; /* of what still faces it within 10 mm: the area, the mean opening (NaN: none) */
-    double trim_mm;  /* of the face within the other bone, the farthest from the other's face: bone that must go */
-    double place[3]; /* of that, in the frame of the other bone */
+    double mm2;    /* of the face that is within touch_mm of the other bone, or in it */
+    double gap_mm; /* mean opening where the other bone's face still lies opposite, within 6 mm; NaN: nowhere */
 } cut_contact;
 
-/* rel takes the face's bone into the frame of the other. */
+/* rel takes the face's bone into the frame of the other. other_face NULL: no gap is asked for. */
 cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel,
                                 double touch_mm);
+/* Of the face within the other bone, the part farthest from that bone's own face: the depth of bone that must go. place
+ * in the frame of the other bone; not found: no part is within it. */
+clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel);
 
 typedef struct cut_place { /* two points that the saw parted */
     double own[3], other[3], n[3]; /* n: from own to other */

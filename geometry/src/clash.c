@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double grid_step_mm = 1.0;
 static const double patch_mm = 3; /* triangles are grouped by where they lie */
 enum { SPLIT_DEPTH = 12 };
 
@@ -29,7 +28,7 @@ struct clash_body {
 
 clash_params clash_params_default(void)
 {
-    return (clash_params){.cell_mm = 0.5, .tolerance_mm = 0.02};
+    return (clash_params){.cell_mm = 0.7, .step_mm = 0.7, .tolerance_mm = 0.02};
 }
 
 /* ---- patches ---- */
@@ -54,6 +53,7 @@ static const double *corner(const surface *s, int32_t t, int k)
 static void close_patch(clash_body *b, int32_t first, int32_t end)
 {
     patch p = {.first = first, .count = end - first};
+    bool outside = false;
     for (int32_t i = first; i < end; i++)
         for (int k = 0; k < 3; k++)
             vec_axpy(p.centre, 1 / (3.0 * p.count), corner(b->s, b->order[i], k), p.centre);
@@ -62,6 +62,9 @@ static void close_patch(clash_body *b, int32_t first, int32_t end)
         for (int k = 0; k < 3; k++)
             p.radius = fmax(p.radius, vec_distance(p.centre, corner(b->s, b->order[i], k)));
     }
+    for (int c = 0; c < 3 && b->params.box; c++)
+        outside |= p.centre[c] + p.radius < b->params.box[c] || p.centre[c] - p.radius > b->params.box[3 + c];
+    if (outside) return;
     b->patches = GROW_ARRAY(patch, b->patches, b->patch_count + 1);
     b->patches[b->patch_count++] = p;
 }
@@ -93,12 +96,13 @@ bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *
     b->s = s;
     b->params = *p;
     b->kind = kind ? COPY_ARRAY(uint8_t, kind, s->triangle_count) : NULL;
-    if (!nearest_create(s, &b->tree, e) || !solid_grid_make(s, grid_step_mm, &b->grid, e)) {
+    if (!nearest_create(s, &b->tree, e) || !solid_grid_make(s, p->step_mm, p->box, &b->grid, e)) {
         clash_body_free(&b);
         return false;
     }
     make_patches(b);
     if (p->cell_mm > 0) b->cells = bone_cells_make(s, b->grid, p->cell_mm);
+    b->params.box = NULL; /* borrowed for the making only */
     *out = b;
     return true;
 }
@@ -132,10 +136,10 @@ double clash_volume(const clash_body *still, const clash_body *moved, const rigi
 }
 
 /* ---- depth and distance: branch and bound, because neither changes faster than the point moves. Where both surfaces
- * run side by side nothing is bounded away, so that the search ends at `finest`: the extremes of flat facets lie at
+ * run side by side nothing is bounded away, so that the search ends at small triangles: the extremes of flat facets lie at
  * corners, which are tried, and between tried points of a curved one the error is of second order. ---- */
 
-static const double finest_depth_mm = 0.3, finest_distance_mm = 0.05, finest_share = 0.3;
+static const double small_mm = 0.5, settled_mm = 1, near_mm = 1.5, finest_distance_mm = 0.05, finest_share = 0.3;
 
 typedef struct hunt {
     const clash_body *other;
@@ -154,17 +158,28 @@ static bool hopeless(const hunt *h, const double p[3], double radius)
     return h->depth || clear - radius >= h->best - h->other->params.tolerance_mm;
 }
 
+static void keep_best(hunt *h, double d, const double p[3])
+{
+    if (h->depth ? d <= h->best : d >= h->best) return;
+    h->best = d;
+    h->found = true;
+    vec_copy(p, h->at);
+}
+
+static bool is_inside(const hunt *h, const double p[3])
+{
+    return solid_grid_inside(h->other->grid, p);
+}
+
 /* Depth (negative outside) or distance (0 inside) of one point, kept if it is the best. */
 static double try_point(hunt *h, const double p[3])
 {
-    bool inside = solid_grid_inside(h->other->grid, p);
+    bool inside = is_inside(h, p);
+    if (h->depth && inside && h->best > 0 && h->best < near_mm && solid_grid_touches(h->other->grid, p, h->best))
+        return h->best; /* at most */
     double d = inside && !h->depth ? 0 : nearest_point(h->other->tree, p, NULL, NULL);
     if (h->depth && !inside) d = -d;
-    if (h->depth ? d > h->best : d < h->best) {
-        h->best = d;
-        h->found = true;
-        vec_copy(p, h->at);
-    }
+    keep_best(h, d, p);
     return d;
 }
 
@@ -174,11 +189,16 @@ static void split(hunt *h, double x[3][3], int level)
     for (int c = 0; c < 3; c++) middle[c] = (x[0][c] + x[1][c] + x[2][c]) / 3;
     for (int k = 0; k < 3; k++) radius = fmax(radius, vec_distance(middle, x[k]));
     if (hopeless(h, middle, radius)) return;
+    if (h->depth && radius <= settled_mm && !is_inside(h, middle)) { /* the usual case is settled without distances */
+        for (int k = 0; k < 3; k++)
+            if (is_inside(h, x[k])) (void)try_point(h, x[k]);
+        return;
+    }
     double d = try_point(h, middle);
     if (h->depth ? d + radius <= h->best + tolerance : d - radius >= h->best - tolerance) return;
     if (level == 0)
         for (int k = 0; k < 3; k++) (void)try_point(h, x[k]);
-    double finest = h->depth ? finest_depth_mm : fmax(finest_distance_mm, finest_share * d);
+    double finest = h->depth ? small_mm : fmax(finest_distance_mm, finest_share * d);
     if (radius <= finest || level == SPLIT_DEPTH) return;
     double m[3][3]; /* middles of the edges */
     for (int k = 0; k < 3; k++) {

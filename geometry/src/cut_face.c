@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double on_kerf_mm = 1e-3, facing_mm = 4, sight_mm = 10, mean_mm = 3;
+static const double on_kerf_mm = 1e-3, facing_mm = 4, sight_mm = 6, mean_mm = 3;
 
 bool cut_bones_make(const segments *bones, cut_bones *out, err *e)
 {
@@ -155,33 +155,41 @@ cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, cons
                                 double touch_mm)
 {
     cut_contact c = {0};
-    double opening = 0;
+    double opening = 0, facing = 0;
     const solid_grid *grid = clash_body_grid(other);
     for (int32_t i = 0; i < f->count; i++) {
         const cut_sample *s = &f->sample[i];
         double p[3], n[3], at[3];
         rigid_apply(rel, s->p, p);
-        rigid_rotate(rel, s->n, n);
-        if (solid_grid_inside(grid, p)) {
-            double depth = nearest_point(other_face, p, NULL, NULL);
-            if (depth > c.trim_mm) {
-                c.trim_mm = depth;
-                vec_copy(p, c.place);
-            }
-            c.mm2 += s->mm2;
-            c.facing_mm2 += s->mm2;
-            continue;
-        }
-        if (solid_grid_clear(grid, p) > sight_mm) continue;
+        bool inside = solid_grid_inside(grid, p);
+        if (inside || solid_grid_touches(grid, p, touch_mm)) c.mm2 += s->mm2;
+        if (inside) facing += s->mm2;
+        if (inside || !other_face || solid_grid_clear(grid, p) > sight_mm) continue;
         double d = nearest_point(other_face, p, at, NULL);
         vec_sub(at, p, at);
-        if (d <= touch_mm) c.mm2 += s->mm2;
+        rigid_rotate(rel, s->n, n);
         if (d > sight_mm || vec_dot(at, n) < 0.7 * d) continue;
-        c.facing_mm2 += s->mm2;
+        facing += s->mm2;
         opening += d * s->mm2;
     }
-    c.gap_mm = c.facing_mm2 > 0 ? opening / c.facing_mm2 : (double)NAN;
+    c.gap_mm = facing > 0 ? opening / facing : (double)NAN;
     return c;
+}
+
+clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel)
+{
+    clash_spot spot = {0};
+    for (int32_t i = 0; i < f->count; i++) {
+        double p[3];
+        rigid_apply(rel, f->sample[i].p, p);
+        if (!solid_grid_inside(clash_body_grid(other), p)) continue;
+        double d = nearest_point(other_face, p, NULL, NULL);
+        if (d <= spot.mm) continue;
+        spot.mm = d;
+        spot.found = true;
+        vec_copy(p, spot.place);
+    }
+    return spot;
 }
 
 bool cut_place_make(const cut_face *f, const double p[3], double kerf_mm, cut_place *out)

@@ -48,7 +48,7 @@ static void inside_is_exact(void **state)
     nearest *tree;
     solid_grid *g;
     assert_ok(nearest_create(&ball, &tree, &e));
-    assert_ok(solid_grid_make(&ball, 1, &g, &e));
+    assert_ok(solid_grid_make(&ball, 1, NULL, &g, &e));
     unsigned seed = 1;
     for (int i = 0; i < 20000; i++) {
         double p[3];
@@ -59,10 +59,25 @@ static void inside_is_exact(void **state)
         assert_int_equal(solid_grid_inside(g, p), nearest_inside(tree, p));
         assert_true(solid_grid_clear(g, p) <= nearest_point(tree, p, NULL, NULL) + 1e-12);
     }
+    const double box[6] = {1, -4, 0, 5, 8, 9}; /* part of it */
+    solid_grid *part;
+    assert_ok(solid_grid_make(&ball, 0.6, box, &part, &e));
+    for (int i = 0; i < 5000; i++) {
+        double p[3];
+        for (int c = 0; c < 3; c++) {
+            seed = seed * 1664525u + 1013904223u;
+            p[c] = box[c] + (box[3 + c] - box[c]) * (seed >> 8) / 16777216.0;
+        }
+        assert_int_equal(solid_grid_inside(part, p), nearest_inside(tree, p));
+        double d = nearest_point(tree, p, NULL, NULL);
+        if (d < 0.39) assert_true(solid_grid_touches(part, p, 0.4));
+        if (d > 0.41) assert_false(solid_grid_touches(part, p, 0.4));
+    }
+    solid_grid_free(&part);
     surface lid = body_box(0, 0, 0, 5, 5, 5);
     solid_grid *open;
     lid.triangle_count -= 2; /* the side at x = 0 */
-    assert_refused(solid_grid_make(&lid, 1, &open, &e), ERR_GEOMETRY);
+    assert_refused(solid_grid_make(&lid, 1, NULL, &open, &e), ERR_GEOMETRY);
     surface_free(&lid);
     solid_grid_free(&g);
     nearest_destroy(&tree);
@@ -229,7 +244,7 @@ static void faces_of_a_cut_open_step_and_overlap(void **state)
     cut_contact c = cut_contact_measure(&lower, still, tree, &rest, 1);
     assert_near(c.mm2, 600, 1e-9);
     assert_near(c.gap_mm, 0.5, 1e-6);
-    assert_near(c.trim_mm, 0, 0);
+    assert_false(cut_face_trim(&lower, still, tree, &rest).found);
     assert_near(cut_place_gap(&at, &rest, &step), 0.5, 1e-9);
     assert_near(step, 0, 1e-9);
 
@@ -237,11 +252,11 @@ static void faces_of_a_cut_open_step_and_overlap(void **state)
     c = cut_contact_measure(&lower, still, tree, &open, 1);
     assert_near(c.mm2, 0, 0);
     assert_near(c.gap_mm, 4.5, 1e-6);
+    assert_false(cut_face_trim(&lower, still, tree, &open).found);
     assert_near(cut_place_gap(&at, &open, &step), 4.5, 1e-9);
 
     rigid up = shift(0, 0, 3); /* impaction: half a millimetre of it the saw took */
-    c = cut_contact_measure(&lower, still, tree, &up, 1);
-    assert_near(c.trim_mm, 2.5, 1e-6);
+    assert_near(cut_face_trim(&lower, still, tree, &up).mm, 2.5, 1e-6);
     assert_near(cut_place_gap(&at, &up, &step), -2.5, 1e-9);
 
     rigid slide = shift(12, 0, 0); /* 18 of 30 mm stay above each other, and 1 mm beyond is near enough */
