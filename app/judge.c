@@ -37,26 +37,20 @@ bool judge_landmark(const judge *j, const plan_moves *m, const char *label, doub
     return true;
 }
 
-static bool find_carriers(judge *j, err *e)
+/* The bone that each landmark lies on, or is nearest to. */
+static void find_carriers(judge *j)
 {
-    const prepared *p = j->prepared;
-    nearest *tree[SEGMENT_COUNT] = {0};
-    bool ok = true;
-    for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (p->segments.part[s].triangle_count) ok = ok && nearest_create(&p->segments.part[s], &tree[s], e);
-    j->carrier = NEW_ARRAY(int, p->points.count);
-    for (int32_t i = 0; ok && i < p->points.count; i++) {
+    const landmarks *l = &j->prepared->points;
+    j->carrier = NEW_ARRAY(int, l->count);
+    for (int32_t i = 0; i < l->count; i++) {
         double least = HUGE_VAL;
         for (int s = 0; s < SEGMENT_COUNT; s++) {
-            double d = tree[s] ? nearest_point(tree[s], p->points.point[i].xyz, NULL, NULL) : HUGE_VAL;
-            if (d < least) {
-                least = d;
-                j->carrier[i] = s;
-            }
+            double d = j->body[s] ? nearest_point(clash_body_tree(j->body[s]), l->point[i].xyz, NULL, NULL) : HUGE_VAL;
+            if (d >= least) continue;
+            least = d;
+            j->carrier[i] = s;
         }
     }
-    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&tree[s]);
-    return ok;
 }
 
 /* In occlusion the cusps of the first molars overlap by 1 to 2 mm. */
@@ -122,10 +116,11 @@ bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
     j->patient = c;
     j->prepared = p;
     find_bite(j);
-    if (!find_carriers(j, e) || !make_bodies(j, e) || !judge_bones_make(j, e)) {
+    if (!make_bodies(j, e) || !judge_bones_make(j, e)) {
         judge_free(&j);
         return false;
     }
+    find_carriers(j);
     judge_teeth_make(j);
     *out = j;
     return true;

@@ -73,11 +73,15 @@ static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones
 
 bool judge_bones_make(judge *j, err *e)
 {
-    cut_bones bones = {0};
-    if (!cut_bones_make(&j->prepared->segments, &bones, e)) return false;
-    bool ok = true;
+    const segments *s = &j->prepared->segments;
+    cut_bones bones = {.bones = s};
+    nearest *saw = NULL;
+    for (int i = 0; i < SEGMENT_COUNT; i++)
+        if (j->body[i]) bones.part[i] = clash_body_tree(j->body[i]);
+    bool ok = !s->kerf.triangle_count || nearest_create(&s->kerf, &saw, e);
+    bones.kerf = saw;
     for (int i = 0; ok && i < JUDGE_CUTS; i++) ok = make_cut(j, &cut_rows[i], &bones, &j->cut[i], e);
-    cut_bones_free(&bones);
+    nearest_destroy(&saw);
     rigid rest = rigid_identity();
     for (int i = 0; ok && i < JUDGE_PAIRS; i++) {
         judge_pair *p = &j->pair[i];

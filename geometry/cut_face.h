@@ -17,13 +17,10 @@ typedef struct cut_face {
     surface shell; /* its triangles */
 } cut_face;
 
-/* For the makers below: the bones of a case with their trees. */
-typedef struct cut_bones {
+typedef struct cut_bones { /* borrowed: the bones of a case with their trees, NULL where there is no such bone */
     const segments *bones;
-    nearest *part[SEGMENT_COUNT], *kerf; /* NULL where there is no such bone */
+    const nearest *part[SEGMENT_COUNT], *kerf;
 } cut_bones;
-bool cut_bones_make(const segments *bones, cut_bones *out, err *e) MUST_CHECK;
-void cut_bones_free(cut_bones *b);
 
 /* The triangles of `own` that lie on the saw's bone and face `other`. May be empty. The caller frees. */
 cut_face cut_face_make(const cut_bones *b, segment_id own, segment_id other, double spacing_mm);

@@ -213,21 +213,52 @@ static void split(hunt *h, double x[3][3], int level)
     }
 }
 
+typedef struct candidate { /* a patch, and the best that it can hold */
+    double bound;
+    int32_t patch;
+} candidate;
+
+static int by_bound(const void *a, const void *b)
+{
+    const candidate *x = a, *y = b;
+    if (x->bound != y->bound) return x->bound < y->bound ? -1 : 1;
+    return x->patch < y->patch ? -1 : 1;
+}
+
+static void search_patch(hunt *h, const clash_body *own, const patch *p, unsigned kinds)
+{
+    double x[3][3];
+    for (int32_t k = p->first; k < p->first + p->count && (h->depth || h->best > 0); k++) {
+        int32_t t = own->order[k];
+        if (own->kind && !(own->kind[t] & kinds)) continue;
+        for (int v = 0; v < 3; v++) rigid_apply(&h->to_other, corner(own->s, t, v), x[v]);
+        split(h, x, 0);
+    }
+}
+
+/* The most promising patches first, so that the rest need no look. */
 static void search(hunt *h, const clash_body *own, unsigned kinds)
 {
-    for (int32_t i = 0; i < own->patch_count && (h->depth || h->best > 0); i++) {
+    candidate *list = NEW_ARRAY(candidate, own->patch_count);
+    int32_t count = 0;
+    double tolerance = h->other->params.tolerance_mm;
+    for (int32_t i = 0; i < own->patch_count; i++) {
         const patch *p = &own->patches[i];
-        double centre[3], x[3][3];
+        double centre[3];
         if (!(p->kinds & kinds)) continue;
         rigid_apply(&h->to_other, p->centre, centre);
         if (hopeless(h, centre, p->radius)) continue;
-        for (int32_t k = p->first; k < p->first + p->count && (h->depth || h->best > 0); k++) {
-            int32_t t = own->order[k];
-            if (own->kind && !(own->kind[t] & kinds)) continue;
-            for (int v = 0; v < 3; v++) rigid_apply(&h->to_other, corner(own->s, t, v), x[v]);
-            split(h, x, 0);
-        }
+        double d = nearest_point(h->other->tree, centre, NULL, NULL) * (is_inside(h, centre) ? -1 : 1);
+        /* the signed distance that the patch may reach; of a depth it is negative */
+        list[count++] = (candidate){d - p->radius, i};
     }
+    qsort(list, (size_t)count, sizeof *list, by_bound);
+    for (int32_t i = 0; i < count; i++) {
+        double can = h->depth ? -list[i].bound : list[i].bound;
+        if (h->depth ? can <= h->best + tolerance : can >= h->best - tolerance) break;
+        search_patch(h, own, &own->patches[list[i].patch], kinds);
+    }
+    free(list);
 }
 
 clash_spot clash_depth(const clash_body *still, const clash_body *moved, const rigid *rel, unsigned kinds)

@@ -6,26 +6,6 @@
 
 static const double on_kerf_mm = 1e-3, facing_mm = 4, sight_mm = 6, mean_mm = 3;
 
-bool cut_bones_make(const segments *bones, cut_bones *out, err *e)
-{
-    cut_bones b = {.bones = bones};
-    bool ok = !bones->kerf.triangle_count || nearest_create(&bones->kerf, &b.kerf, e);
-    for (int s = 0; ok && s < SEGMENT_COUNT; s++)
-        if (bones->part[s].triangle_count) ok = nearest_create(&bones->part[s], &b.part[s], e);
-    if (!ok) {
-        cut_bones_free(&b);
-        return false;
-    }
-    *out = b;
-    return true;
-}
-
-void cut_bones_free(cut_bones *b)
-{
-    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&b->part[s]);
-    nearest_destroy(&b->kerf);
-}
-
 void cut_face_free(cut_face *f)
 {
     free(f->sample);
@@ -45,12 +25,15 @@ static double normal_of(const surface *s, int32_t t, double middle[3], double n[
     return vec_normalize(n) / 2;
 }
 
-/* The saw's bone touches the triangle from outside, and `other` is the bone behind it. */
-static bool is_cut(const cut_bones *b, segment_id own, segment_id other, int32_t t)
+/* The saw's bone, which lies within low and high, touches the triangle from outside, and `other` is the bone behind. */
+static bool is_cut(const cut_bones *b, segment_id own, segment_id other, int32_t t, const double low[3],
+                   const double high[3])
 {
     double middle[3], n[3], at[3], m[3], k[3];
     int32_t hit;
     if (!(normal_of(&b->bones->part[own], t, middle, n) > 0)) return false;
+    for (int c = 0; c < 3; c++)
+        if (middle[c] < low[c] - on_kerf_mm || middle[c] > high[c] + on_kerf_mm) return false;
     if (nearest_point(b->kerf, middle, at, &hit) > on_kerf_mm) return false;
     normal_of(&b->bones->kerf, hit, m, k);
     if (vec_dot(n, k) > -0.9) return false;
@@ -128,8 +111,10 @@ cut_face cut_face_make(const cut_bones *b, segment_id own, segment_id other, dou
     uint8_t *keep = NEW_ARRAY(uint8_t, s->triangle_count);
     piece *list = NULL;
     int32_t count = 0;
+    double low[3], high[3];
+    surface_bounds(&b->bones->kerf, low, high);
     for (int32_t t = 0; t < s->triangle_count; t++) {
-        keep[t] = is_cut(b, own, other, t);
+        keep[t] = is_cut(b, own, other, t, low, high);
         if (keep[t]) add_pieces(s, t, spacing_mm, &list, &count);
     }
     join_pieces(list, count, &f);

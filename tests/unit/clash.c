@@ -224,15 +224,18 @@ static void faces_of_a_cut_open_step_and_overlap(void **state)
     s.part[SEGMENT_CRANIUM] = body_box(0, 0, 0.25, 30, 20, 20);
     s.part[SEGMENT_MAXILLA] = body_box(0, 0, -15, 30, 20, -0.25);
     s.kerf = body_box(0, 0, -0.25, 30, 20, 0.25);
-    cut_bones bones;
-    assert_ok(cut_bones_make(&s, &bones, &e));
+    clash_body *still = body(&s.part[SEGMENT_CRANIUM]), *moved = body(&s.part[SEGMENT_MAXILLA]);
+    nearest *saw;
+    assert_ok(nearest_create(&s.kerf, &saw, &e));
+    cut_bones bones = {.bones = &s, .kerf = saw};
+    bones.part[SEGMENT_CRANIUM] = clash_body_tree(still);
+    bones.part[SEGMENT_MAXILLA] = clash_body_tree(moved);
     cut_face upper = cut_face_make(&bones, SEGMENT_CRANIUM, SEGMENT_MAXILLA, 1.2),
              lower = cut_face_make(&bones, SEGMENT_MAXILLA, SEGMENT_CRANIUM, 1.2);
-    cut_bones_free(&bones);
+    nearest_destroy(&saw);
     assert_near(lower.mm2, 600, 1e-9);
     assert_near(upper.mm2, 600, 1e-9);
     assert_int_equal(lower.shell.triangle_count, 2);
-    clash_body *still = body(&s.part[SEGMENT_CRANIUM]);
     nearest *tree;
     assert_ok(nearest_create(&upper.shell, &tree, &e));
     cut_place at;
@@ -267,6 +270,7 @@ static void faces_of_a_cut_open_step_and_overlap(void **state)
 
     nearest_destroy(&tree);
     clash_body_free(&still);
+    clash_body_free(&moved);
     cut_face_free(&upper);
     cut_face_free(&lower);
     segments_free(&s);
