@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 static const double spacing_mm = 2; /* of the samples on a cut's face */
+static const double touch_mm = 1.5;  /* and the saw's width: bones that near to each other count as in contact */
 
 static const struct cut_row {
     segment_id still, moved;
@@ -134,7 +135,7 @@ static void measure(const judge *j, const judge_cut *c, const plan_moves *m, cut
     rigid back = rigid_inverse(&out->rel);
     bool split = is_sagittal(c);
     out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
-                                       &out->rel, j->patient->cuts.kerf_mm + 0.5);
+                                       &out->rel, j->patient->cuts.kerf_mm + touch_mm);
     out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
     clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
     if (other.mm > out->trim.mm) {

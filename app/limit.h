@@ -58,7 +58,7 @@
     X(LE_FORT_STEP, le_fort_step_mm, "mm", 0, 6, 0, 10, "step of the bone at the Le Fort I cut",                      \
       "a bone graft is usual above 6 mm (Peterson's Principles 2022, ch. 63); 10 mm: own limit")                      \
     X(LE_FORT_CONTACT, le_fort_contact_mm2, "mm2", 50, LIMIT_OPEN, -LIMIT_OPEN, LIMIT_OPEN,                           \
-      "bone that meets bone at the Le Fort I cut", "own limit, no published number; plates and grafts bridge it")     \
+      "bone with bone within 1.5 mm and the saw at the Le Fort I cut", "own limit, no published number; plates and grafts bridge it")     \
     X(BSSO_GAP, bsso_gap_mm, "mm", -LIMIT_OPEN, 3, -LIMIT_OPEN, 5, "opening between the plates of the split",         \
       "a gap above 5 mm needs a graft (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 28)")              \
     X(BSSO_BUCCAL_GAP, bsso_buccal_gap_mm, "mm", -LIMIT_OPEN, 8, -LIMIT_OPEN, 13, "opening of the buccal cut",        \
@@ -66,13 +66,13 @@
     X(BSSO_STEP, bsso_step_mm, "mm", 0, 4, 0, 10, "step of the jaw's border at the buccal cut",                        \
       "own limit, no published number; a notch that is felt")                                                         \
     X(BSSO_CONTACT, bsso_contact_mm2, "mm2", 200, LIMIT_OPEN, 80, LIMIT_OPEN,                                         \
-      "bone that meets bone in a sagittal split", "own limit, no published number; room for three screws")            \
+      "bone with bone within 1.5 mm and the saw in a split", "own limit, no published number; room for three screws")            \
     X(CHIN_GAP, chin_gap_mm, "mm", -LIMIT_OPEN, 3, -LIMIT_OPEN, 5, "opening of the chin cut",                         \
       "a gap above 5 mm needs a graft (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 28)")              \
     X(CHIN_STEP, chin_step_mm, "mm", 0, 6, 0, 10, "step of the bone at the chin cut",                                 \
       "more than the symphysis is thick needs two steps (Peterson's Principles 2022, ch. 62); clinical custom")       \
     X(CHIN_CONTACT, chin_contact_mm2, "mm2", 100, LIMIT_OPEN, 30, LIMIT_OPEN,                                         \
-      "bone that meets bone at the chin cut", "own limit, no published number")                                       \
+      "bone with bone within 1.5 mm and the saw at the chin cut", "own limit, no published number")                                       \
     X(TRIM_DEPTH, trim_depth_mm, "mm", 0, 1, 0, 10, "bone to be trimmed beside a cut, depth",                         \
       "up to 1 mm the saw takes; an impaction or setback by as much is planned with a strip of bone removed "         \
       "(Peterson's Principles 2022, ch. 62); 10 mm is the limit of those moves")                                      \

@@ -119,6 +119,21 @@ json_t *plan_audit_json(const plan_audit *a)
     return o;
 }
 
+void judgement_print_brief(const judgement *j, const case_file *c)
+{
+    int count[4] = {0};
+    char stop[48];
+    for (int i = 0; i < j->count; i++) count[j->finding[i].level]++;
+    printf("limits: %d stop, %d caution, %d not judged (gnathos audit CASE --plan lists them)\n", count[LIMIT_STOP],
+           count[LIMIT_CAUTION], count[LIMIT_NOT_JUDGED]);
+    for (int i = 0; i < j->count; i++) {
+        const finding *f = &j->finding[i];
+        if (f->level == LIMIT_STOP)
+            printf("  %s%s%s is %.4g, should be %s\n", limit_default[f->limit].name, *f->where ? ", " : "", f->where,
+                   f->value, range_words(c->limits[f->limit].stop, stop));
+    }
+}
+
 bool judgement_allows(const judgement *j, const case_file *c, const plan_file *plan, err *e)
 {
     if (j->worst != LIMIT_STOP || *plan->override) return true;
