@@ -121,6 +121,7 @@ bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
         return false;
     }
     find_carriers(j);
+    judge_nerve_make(j);
     judge_teeth_make(j);
     *out = j;
     return true;
@@ -144,6 +145,7 @@ void judge_plan(const judge *j, const plan_moves *m, judgement *out)
     out->reason = -1;
     judge_moves(j, m, out);
     judge_bones(j, m, out);
+    judge_nerve(j, m, out);
     judge_teeth(j, m, out);
     judge_bite(j, m, out);
     judge_cuts(j, out);

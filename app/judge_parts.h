@@ -37,6 +37,8 @@ struct judge {
     clash_body *body[SEGMENT_COUNT];
     judge_cut cut[JUDGE_CUTS];
     judge_pair pair[JUDGE_PAIRS];
+    double canal[2][3 * CANAL_POINTS_MAX]; /* left, right: the estimated course, one point per millimetre or so */
+    int canal_count[2];
     const char *no_crowns; /* why the crowns are not known; NULL: they are */
     double tooth_rest_mm;  /* overlap of the crowns in the scan */
     int32_t bite_count;
@@ -54,9 +56,11 @@ uint8_t *judge_crowns(const prepared *p, segment_id bone, const char **why);
 bool judge_bones_make(judge *j, err *e) MUST_CHECK;
 void judge_bones_free(judge *j);
 void judge_teeth_make(judge *j);
+void judge_nerve_make(judge *j);
 
 void judge_moves(const judge *j, const plan_moves *m, judgement *out);
 void judge_bones(const judge *j, const plan_moves *m, judgement *out);
+void judge_nerve(const judge *j, const plan_moves *m, judgement *out);
 void judge_teeth(const judge *j, const plan_moves *m, judgement *out);
 void judge_bite(const judge *j, const plan_moves *m, judgement *out);
 void judge_cuts(const judge *j, judgement *out);

@@ -73,6 +73,8 @@
       "more than the symphysis is thick needs two steps (Peterson's Principles 2022, ch. 62); clinical custom")       \
     X(CHIN_CONTACT, chin_contact_mm2, "mm2", 100, LIMIT_OPEN, 30, LIMIT_OPEN,                                         \
       "bone with bone within 1.5 mm and the saw at the chin cut", "own limit, no published number")                                       \
+    X(NERVE_ROOM, nerve_room_mm, "mm", 1, LIMIT_OPEN, 0.2, LIMIT_OPEN, "mandibular canal to the proximal segment",      \
+      "own limit, no published number; the course of the canal is estimated")                                         \
     X(TRIM_DEPTH, trim_depth_mm, "mm", 0, 1, 0, 10, "bone to be trimmed beside a cut, depth",                         \
       "up to 1 mm the saw takes; an impaction or setback by as much is planned with a strip of bone removed "         \
       "(Peterson's Principles 2022, ch. 62); 10 mm is the limit of those moves")                                      \
