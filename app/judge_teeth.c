@@ -45,13 +45,15 @@ uint8_t *judge_crowns(const prepared *p, segment_id bone, const char **why)
     }
     uint8_t *kind = NEW_ARRAY(uint8_t, s->triangle_count);
     for (int32_t t = 0; t < s->triangle_count; t++) {
-        double middle[3] = {0}, d[3], local[3];
-        for (int k = 0; k < 3; k++)
-            vec_axpy(middle, 1 / 3.0, s->xyz + 3 * (size_t)s->tri[3 * (size_t)t + (size_t)k], middle);
-        vec_sub(middle, at, d);
-        head_frame_to_local(&p->frame, middle, local);
-        double height = vec_dot(d, up) * (upper ? 1 : -1); /* towards the gum */
-        kind[t] = height < crown_mm && height > -beyond_mm && local[1] < end ? KIND_CROWN : KIND_BONE;
+        kind[t] = KIND_BONE;
+        for (int k = 0; k < 3; k++) {
+            const double *x = s->xyz + 3 * (size_t)s->tri[3 * (size_t)t + (size_t)k];
+            double d[3], local[3];
+            vec_sub(x, at, d);
+            head_frame_to_local(&p->frame, x, local);
+            double height = vec_dot(d, up) * (upper ? 1 : -1); /* towards the gum */
+            if (height < crown_mm && height > -beyond_mm && local[1] < end) kind[t] = KIND_CROWN;
+        }
     }
     return kind;
 }
