@@ -10,19 +10,23 @@
 
 enum { LAYERS = SEGMENT_COUNT + 2, TILES = 6, CLOSE_UPS = 3, TILE_WIDTH = 760, TILE_HEIGHT = 720 };
 static const double red[3] = {0.84, 0.07, 0.10}, blue[3] = {0.10, 0.32, 0.88}, pale[3] = {0.74, 0.84, 0.97},
-                    yellow[3] = {0.95, 0.80, 0.05}, orange[3] = {0.95, 0.55, 0.10};
+                    yellow[3] = {0.95, 0.80, 0.05}, orange[3] = {0.78, 0.38, 0.02};
 static const double parted_mm = 0.5, dark_blue_mm = 5, close_mm = 24, bone_opacity = 0.32;
+static const double coarse_mm = 2, fine_mm = 0.4; /* triangles that are painted: of one kind, at its border */
+
+typedef struct patchwork { /* loose triangles, each with its colour */
+    surface s;
+    int32_t room;
+} patchwork;
 
 typedef struct scene {
     const judge *j;
     const plan_moves *m;
-    surface overlap, gap; /* as planned */
-    uint8_t *gap_rgb;
+    patchwork overlap, gap; /* as planned */
     model *shape[LAYERS];
     layer layers[LAYERS];
     int layer_count;
     mark marks[FINDINGS_MAX];
-    label_point names[FINDINGS_MAX];
     char text[FINDINGS_MAX][96];
     int mark_count;
     int worst[CLOSE_UPS], worst_count; /* numbers of findings, the gravest first, at different places */
@@ -30,84 +34,110 @@ typedef struct scene {
     double canal_xyz[2][3 * CANAL_POINTS_MAX];
 } scene;
 
-static void append(surface *to, const surface *what, const rigid *move)
+static void add_triangle(patchwork *w, double x[3][3], const rigid *move, const double rgb[3])
 {
-    surface moved = surface_copy(what), both;
-    surface_transform(&moved, move);
-    both = surface_joined(to, &moved);
-    surface_free(to);
-    surface_free(&moved);
-    *to = both;
+    if (w->s.triangle_count == w->room) {
+        w->room = 2 * w->room + 64;
+        w->s.xyz = GROW_ARRAY(double, w->s.xyz, 9 * (size_t)w->room);
+        w->s.tri = GROW_ARRAY(int32_t, w->s.tri, 3 * (size_t)w->room);
+        w->s.rgb = GROW_ARRAY(uint8_t, w->s.rgb, 9 * (size_t)w->room);
+    }
+    for (int k = 0; k < 3; k++) {
+        size_t v = (size_t)w->s.vertex_count++;
+        rigid_apply(move, x[k], w->s.xyz + 3 * v);
+        w->s.tri[v] = (int32_t)v;
+        for (int c = 0; c < 3; c++) w->s.rgb[3 * v + (size_t)c] = (uint8_t)lround(255 * rgb[c]);
+    }
+    w->s.triangle_count++;
 }
 
-/* The part of one bone's surface that lies within another. */
+typedef struct brush { /* what is painted of the triangles of one bone that is moved against another */
+    patchwork *to;
+    const clash_body *other;
+    rigid rel, move;
+    double saw_mm; /* of gaps */
+} brush;
+
+static double longest_edge(double x[3][3])
+{
+    return fmax(vec_distance(x[0], x[1]), fmax(vec_distance(x[1], x[2]), vec_distance(x[2], x[0])));
+}
+
+/* Calls paint for each of four parts. */
+static void quarter(const brush *b, double x[3][3], void (*paint)(const brush *, double[3][3]))
+{
+    double m[3][3], y[3][3];
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++) m[k][c] = (x[k][c] + x[(k + 1) % 3][c]) / 2;
+    paint(b, m);
+    for (int k = 0; k < 3; k++) {
+        vec_copy(x[k], y[0]);
+        vec_copy(m[k], y[1]);
+        vec_copy(m[(k + 2) % 3], y[2]);
+        paint(b, y);
+    }
+}
+
+/* The part of a triangle that lies within the other bone. */
+static void paint_overlap(const brush *b, double x[3][3])
+{
+    const solid_grid *grid = clash_body_grid(b->other);
+    double middle[3] = {0}, p[3], edge = longest_edge(x);
+    int in = 0;
+    for (int k = 0; k < 3; k++) {
+        vec_axpy(middle, 1 / 3.0, x[k], middle);
+        rigid_apply(&b->rel, x[k], p);
+        in += solid_grid_inside(grid, p);
+    }
+    rigid_apply(&b->rel, middle, p);
+    if (!in && solid_grid_clear(grid, p) > edge) return;
+    if (edge > ((in == 0 || in == 3) ? coarse_mm : fine_mm))
+        quarter(b, x, paint_overlap);
+    else if (in >= 2)
+        add_triangle(b->to, x, &b->move, red);
+}
+
+/* The part of a cut's face that has no bone opposite within the saw's width and a little. */
+static void paint_gap(const brush *b, double x[3][3])
+{
+    double middle[3] = {0}, p[3], e1[3], e2[3], n[3], hit[3], rgb[3];
+    if (longest_edge(x) > coarse_mm) {
+        quarter(b, x, paint_gap);
+        return;
+    }
+    for (int k = 0; k < 3; k++) vec_axpy(middle, 1 / 3.0, x[k], middle);
+    vec_sub(x[1], x[0], e1);
+    vec_sub(x[2], x[0], e2);
+    vec_cross(e1, e2, n);
+    rigid_apply(&b->rel, middle, p);
+    rigid_rotate(&b->rel, n, n);
+    if (solid_grid_inside(clash_body_grid(b->other), p)) return;
+    bool faces = nearest_ray(clash_body_tree(b->other), p, n, hit, NULL);
+    double gap = (faces ? vec_distance(p, hit) : 2 * dark_blue_mm) - b->saw_mm, share = fmin(gap / dark_blue_mm, 1);
+    if (gap < parted_mm) return;
+    for (int c = 0; c < 3; c++) rgb[c] = pale[c] + share * (blue[c] - pale[c]);
+    add_triangle(b->to, x, &b->move, rgb);
+}
+
+static void paint(const surface *s, const brush *b, void (*with)(const brush *, double[3][3]))
+{
+    for (int32_t t = 0; t < s->triangle_count; t++) {
+        double x[3][3];
+        for (int k = 0; k < 3; k++) vec_copy(s->xyz + 3 * (size_t)s->tri[3 * (size_t)t + (size_t)k], x[k]);
+        with(b, x);
+    }
+}
+
 static void add_overlap(scene *s, segment_id own, segment_id other)
 {
-    const clash_body *b = s->j->body[other];
-    const surface *bone = &s->j->prepared->segments.part[own];
-    rigid rel;
-    if (!b || !bone->triangle_count || !judge_relative(s->m, other, own, &rel)) return;
-    uint8_t *in = NEW_ARRAY(uint8_t, bone->vertex_count), *keep = NEW_ARRAY(uint8_t, bone->triangle_count);
-    bool any = false;
-    for (int32_t v = 0; v < bone->vertex_count; v++) {
-        double p[3];
-        rigid_apply(&rel, bone->xyz + 3 * (size_t)v, p);
-        in[v] = solid_grid_inside(clash_body_grid(b), p);
-    }
-    for (int32_t t = 0; t < bone->triangle_count; t++) {
-        const int32_t *v = bone->tri + 3 * (size_t)t;
-        keep[t] = in[v[0]] + in[v[1]] + in[v[2]] >= 2;
-        any |= keep[t];
-    }
-    if (any) {
-        surface part = surface_select(bone, keep);
-        append(&s->overlap, &part, &s->m->move[own]);
-        surface_free(&part);
-    }
-    free(in);
-    free(keep);
+    brush b = {.to = &s->overlap, .other = s->j->body[other], .move = s->m->move[own]};
+    if (b.other && judge_relative(s->m, other, own, &b.rel)) paint(&s->j->prepared->segments.part[own], &b, paint_overlap);
 }
 
-/* The part of a cut's face that has no bone near it any more. */
-static void add_gap(scene *s, const surface *shell, segment_id own, segment_id other, const nearest *face)
+static void add_gap(scene *s, const surface *shell, segment_id own, segment_id other)
 {
-    rigid rel;
-    double saw = s->j->patient->cuts.kerf_mm;
-    if (!judge_relative(s->m, other, own, &rel)) return;
-    uint8_t *keep = NEW_ARRAY(uint8_t, shell->triangle_count);
-    double *mm = NEW_ARRAY(double, shell->vertex_count);
-    bool any = false;
-    for (int32_t v = 0; v < shell->vertex_count; v++) {
-        double p[3];
-        rigid_apply(&rel, shell->xyz + 3 * (size_t)v, p);
-        bool inside = solid_grid_inside(clash_body_grid(s->j->body[other]), p);
-        mm[v] = inside ? 0 : nearest_point(face, p, NULL, NULL) - saw;
-    }
-    for (int32_t t = 0; t < shell->triangle_count; t++) {
-        const int32_t *v = shell->tri + 3 * (size_t)t;
-        keep[t] = mm[v[0]] > parted_mm && mm[v[1]] > parted_mm && mm[v[2]] > parted_mm;
-        any |= keep[t];
-    }
-    if (any) { /* vertices keep their order, so that their colours follow */
-        uint8_t *used = NEW_ARRAY(uint8_t, shell->vertex_count);
-        for (int32_t t = 0; t < shell->triangle_count; t++)
-            for (int k = 0; keep[t] && k < 3; k++) used[shell->tri[3 * (size_t)t + (size_t)k]] = 1;
-        surface part = surface_select(shell, keep);
-        int32_t at = s->gap.vertex_count;
-        append(&s->gap, &part, &s->m->move[own]);
-        s->gap_rgb = GROW_ARRAY(uint8_t, s->gap_rgb, 3 * (size_t)s->gap.vertex_count);
-        for (int32_t v = 0; v < shell->vertex_count; v++) {
-            if (!used[v]) continue;
-            double share = fmin(mm[v] / dark_blue_mm, 1);
-            for (int c = 0; c < 3; c++)
-                s->gap_rgb[3 * (size_t)at + (size_t)c] = (uint8_t)lround(255 * (pale[c] + share * (blue[c] - pale[c])));
-            at++;
-        }
-        surface_free(&part);
-        free(used);
-    }
-    free(keep);
-    free(mm);
+    brush b = {.to = &s->gap, .other = s->j->body[other], .move = s->m->move[own], .saw_mm = s->j->patient->cuts.kerf_mm};
+    if (judge_relative(s->m, other, own, &b.rel)) paint(shell, &b, paint_gap);
 }
 
 static void find_surfaces(scene *s)
@@ -117,7 +147,7 @@ static void find_surfaces(scene *s)
         if (!c->there) continue;
         add_overlap(s, c->moved, c->still);
         add_overlap(s, c->still, c->moved);
-        add_gap(s, &c->face.shell, c->moved, c->still, c->back_tree);
+        add_gap(s, &c->face.shell, c->moved, c->still);
     }
     for (int i = 0; i < JUDGE_PAIRS; i++) {
         add_overlap(s, s->j->pair[i].moved, s->j->pair[i].still);
@@ -137,8 +167,6 @@ static void find_marks(scene *s, const judgement *now)
             s->marks[k] = (mark){.radius_mm = 1.1, .on_top = true};
             vec_copy(f->place, s->marks[k].xyz);
             vec_copy(level == LIMIT_STOP ? red : orange, s->marks[k].rgb);
-            s->names[k].text = s->text[k];
-            vec_copy(f->place, s->names[k].xyz);
             bool new_place = s->worst_count < CLOSE_UPS;
             for (int w = 0; w < s->worst_count; w++)
                 new_place = new_place && vec_distance(now->finding[s->worst[w]].place, f->place) > close_mm / 2;
@@ -152,16 +180,14 @@ static void find_marks(scene *s, const judgement *now)
     }
 }
 
-static bool add_layer(scene *s, studio *st, const surface *shape, const rigid *move, const double *rgb,
-                      const uint8_t *vertex_rgb, double opacity, err *e)
+static bool add_layer(scene *s, studio *st, const surface *shape, const rigid *move, double opacity, err *e)
 {
     model_params p = model_params_bone();
     if (!shape->triangle_count) return true;
     if (!model_create(st, shape, &p, &s->shape[s->layer_count], e)) return false;
     layer *l = &s->layers[s->layer_count];
     *l = layer_default(s->shape[s->layer_count], opacity < 1 ? MATERIAL_BONE : MATERIAL_PLAIN);
-    if (rgb) vec_copy(rgb, l->rgb);
-    l->vertex_rgb = vertex_rgb;
+    if (opacity == 1) l->vertex_rgb = shape->rgb; /* bones keep the usual colour */
     l->opacity = opacity;
     l->move = *move;
     s->layer_count++;
@@ -171,10 +197,9 @@ static bool add_layer(scene *s, studio *st, const surface *shape, const rigid *m
 static bool make_layers(scene *s, studio *st, err *e)
 {
     rigid rest = rigid_identity();
-    bool ok = add_layer(s, st, &s->overlap, &rest, red, NULL, 1, e) &&
-              add_layer(s, st, &s->gap, &rest, blue, s->gap_rgb, 1, e);
+    bool ok = add_layer(s, st, &s->overlap.s, &rest, 1, e) && add_layer(s, st, &s->gap.s, &rest, 1, e);
     for (int i = 0; ok && i < SEGMENT_COUNT; i++)
-        ok = add_layer(s, st, &s->j->prepared->segments.part[i], &s->m->move[i], NULL, NULL, bone_opacity, e);
+        ok = add_layer(s, st, &s->j->prepared->segments.part[i], &s->m->move[i], bone_opacity, e);
     return ok;
 }
 
@@ -190,7 +215,8 @@ static bool draw(const scene *s, studio *st, camera *view, bool names, image *ou
     label_fonts fonts = label_fonts_default();
     if (!picture_render(st, &p, &style, out, NULL, e) || !pen_open(out, &fonts, &ink, e)) return false;
     double scale = camera_scale(view, TILE_HEIGHT);
-    if (names) label_points(ink, out, 15, view, s->names, s->mark_count, NULL);
+    for (int i = 0; names && i < s->mark_count && i < 12; i++)
+        pen_text(ink, 14, 52 + 18 * i, LABEL_LEFT, 14, false, s->marks[i].rgb, s->text[i]);
     label_sides(ink, 0, 0, TILE_WIDTH, TILE_HEIGHT, 20, view, &s->j->prepared->frame);
     label_scale_bar(ink, 18, TILE_HEIGHT - 20, scale, label_scale_length(scale, TILE_WIDTH), 16);
     pen_close(&ink);
@@ -222,7 +248,7 @@ static bool close_view(const scene *s, const double place[3], camera *out, err *
     return true;
 }
 
-static bool add_legend(image *im, const scene *s, err *e)
+static bool add_legend(image *im, err *e)
 {
     pen *ink;
     label_fonts fonts = label_fonts_default();
@@ -230,7 +256,6 @@ static bool add_legend(image *im, const scene *s, err *e)
                             {"cut face parted (darker: up to 5 mm)", {blue[0], blue[1], blue[2]}},
                             {"mandibular canal (estimated)", {yellow[0], yellow[1], yellow[2]}},
                             {"ball: caution; red ball: stop", {orange[0], orange[1], orange[2]}}};
-    (void)s;
     if (!pen_open(im, &fonts, &ink, e)) return false;
     label_legend(ink, 14, 40, 16, entry, 4);
     pen_close(&ink);
@@ -254,7 +279,7 @@ static bool draw_sheet(const scene *s, studio *st, const judgement *now, const c
             standard_view(s, view[i], &c);
         snprintf(caption[i], sizeof caption[i], "%s%s%s", f ? limit_default[f->limit].name : camera_view_name(view[i]),
                  f && *f->where ? ", " : "", f ? f->where : "");
-        ok = ok && draw(s, st, &c, i == 0, &tile[i], e) && (i != 1 || add_legend(&tile[i], s, e));
+        ok = ok && draw(s, st, &c, i == 0, &tile[i], e) && (i != 1 || add_legend(&tile[i], e));
         on[i] = (compose_tile){&tile[i], caption[i]};
     }
     compose_params p = compose_params_default();
@@ -281,9 +306,8 @@ bool judge_picture_write(const judge *j, const plan_moves *m, const judgement *n
     for (int i = 0; i < LAYERS; i++) model_free(&s->shape[i]);
     studio_close(&st);
     image_free(&sheet);
-    surface_free(&s->overlap);
-    surface_free(&s->gap);
-    free(s->gap_rgb);
+    surface_free(&s->overlap.s);
+    surface_free(&s->gap.s);
     free(s);
     return ok;
 }

@@ -1,9 +1,10 @@
 #include "app/remedy.h"
+#include "app/judge_parts.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 #include <string.h>
 
-static const double fine_step = 0.05, reach_mm = 5;
+static const double fine_step = 0.05, first_step = 0.5, stride = 3, reach_mm = 4.5;
 
 enum { TURNS = 3, SHIFTS = 6 };
 
@@ -69,6 +70,21 @@ typedef struct trial {
     int which;
 } trial;
 
+/* What moves and landmarks alone decide does not forbid the change already. */
+static bool cheap_ones_allow(const trial *t, const plan_moves *m)
+{
+    judgement then = {.reason = -1};
+    judge_moves(t->j, m, &then);
+    judge_bite(t->j, m, &then);
+    for (int i = 0; i < then.count; i++) {
+        const finding *f = &then.finding[i], *was = t->now->finding;
+        while (was->limit != f->limit) was++; /* one finding each */
+        if (f->level > was->level) return false;
+        if (was == &t->now->finding[t->which] && f->level == was->level) return false;
+    }
+    return true;
+}
+
 /* The limit is better by a level, and nothing is worse. */
 static bool helps(const trial *t, change c, double by)
 {
@@ -80,6 +96,7 @@ static bool helps(const trial *t, change c, double by)
     bool made = plan_moves_set(&plan, t->c, &t->p->points, &m, &ignored);
     issue_list_free(&ignored);
     if (!made) return false;
+    if (!cheap_ones_allow(t, &m)) return false;
     judge_plan(t->j, &m, &then);
     for (int i = 0; i < then.count; i++)
         if (then.finding[i].level > t->now->finding[i].level) return false;
@@ -89,9 +106,9 @@ static bool helps(const trial *t, change c, double by)
 /* The least amount that helps, HUGE_VAL if none does; not looked for beyond `limit_by`. */
 static double least(const trial *t, change c, double limit_by)
 {
-    double high = fine_step, low = 0, end = fmin(most(&t->plan, c), limit_by);
+    double high = first_step, low = 0, end = fmin(most(&t->plan, c), limit_by);
     if (!(end > 0)) return HUGE_VAL;
-    for (; !helps(t, c, fmin(high, end)); high *= 2) {
+    for (; !helps(t, c, fmin(high, end)); high *= stride) {
         if (high >= end) return HUGE_VAL;
         low = high;
     }
@@ -104,6 +121,14 @@ static double least(const trial *t, change c, double limit_by)
             low = middle;
     }
     return high;
+}
+
+/* Moving the segment can change the finding: it is of it, or of what it carries. */
+static bool concerns(const finding *f, segment_id s)
+{
+    bool any = f->segment_a < 0 && f->segment_b < 0;
+    return any || f->segment_a == (int)s || f->segment_b == (int)s ||
+           (s == SEGMENT_DISTAL && (f->segment_a == SEGMENT_CHIN || f->segment_b == SEGMENT_CHIN));
 }
 
 static void say(change c, double by, char text[REMEDY_TEXT_SIZE])
@@ -120,7 +145,8 @@ bool remedy_find(const judge *j, const case_file *c, const prepared *p, const pl
     trial t = {.j = j, .c = c, .p = p, .plan = opened(plan, &p->frame), .now = now, .which = which};
     double best = HUGE_VAL;
     text[0] = 0;
-    for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++)
+    for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++) {
+        if (!concerns(&now->finding[which], (segment_id)s)) continue;
         for (int k = 0; k < SHIFTS + TURNS; k++) {
             change one = {(segment_id)s, k};
             double by = least(&t, one, best - fine_step);
@@ -128,5 +154,6 @@ bool remedy_find(const judge *j, const case_file *c, const prepared *p, const pl
             best = by;
             say(one, by, text);
         }
+    }
     return best < HUGE_VAL;
 }
