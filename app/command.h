@@ -64,6 +64,7 @@ void command_print_json(json_t *object, const char *verb_name);
 /* True after SIGINT: stop at the next safe point, remove what is half done, return ERR_INTERRUPTED. */
 bool app_interrupted(void);
 
+int command_audit(int argc, char **argv);
 int command_ceph(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_compare(int argc, char **argv);

@@ -34,7 +34,7 @@ const verb verbs[] = {
     {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
     {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
     {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
-    {"audit", "run many plans and list which are feasible", NOT_BUILT},
+    {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(command_audit)},
     {"study", "error against run time of a case", NOT_BUILT},
     {"stress", "stiff materials and extreme moves", NOT_BUILT},
     {"report", "one page with pictures and tables of an outcome", NOT_BUILT},
