@@ -16,6 +16,7 @@ static double one_linear_solve(const equilibrium_problem *p, err *e)
     bool positive;
     double begin = clock_s();
     if (!solver_create(p, 1, &t, e)) return -1;
+    if (!solver_order(t, e)) return -1;
     double *b = NEW_ARRAY(double, t->b.unknown_count);
     for (int32_t i = 0; i < t->b.unknown_count; i++) b[i] = 1;
     assembly_stiffness(&t->a, p->mesh->xyz, PROJECTION_NONE);
