@@ -4,7 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRADIENTS_FROM = 20000 /* unknowns; measured: below, factors are as fast and never fail */ };
+enum {
+    GRADIENTS_FROM = 3000, /* unknowns; below, nothing takes long */
+    FACTORS_UP_TO = 400000 /* unknowns: 6 GB */
+};
+
+/* Where tissue buckles, gradients crawl, and factors, though each costs n/500 iterations, are the way on. */
+static bool have_crawled(const descent *d)
+{
+    int64_t n = d->t->b.unknown_count;
+    return n <= FACTORS_UP_TO && d->cg_at_load > 300 + n / 50;
+}
 
 static bool use_gradients(const solver *t, const solve_params *params)
 {
@@ -53,11 +63,13 @@ static void refresh(descent *d)
  * factors from here on. *ok false: there is no matrix to step with; *step 0: no step is good. */
 static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, double *factor_s, bool *ok, err *e)
 {
+    d->inexact = d->inexact && !have_crawled(d);
     *kind = !d->inexact && direct_reusable(d) ? HESSIAN_REUSED : HESSIAN_TRUE;
     for (;;) {
         if (d->inexact) {
-            if (!inexact_direction(d, *kind, cg, ok, factor_s, e)) return false;
+            if (!inexact_direction(d, kind, cg, ok, factor_s, e)) return false;
             *step = *ok ? point_line_search(d) : 0;
+            d->cut = *step < 1;
             if (*step > 0) return true;
             d->inexact = *ok && *kind == HESSIAN_TRUE;
             *kind = d->inexact ? HESSIAN_PROJECTED : HESSIAN_TRUE;
@@ -152,6 +164,8 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     d->touching = false;
     d->inexact = use_gradients(t, d->params);
     d->residual_before = 0;
+    d->cg_at_load = 0;
+    d->cut = false;
     int cg = 0;
     double reference = start_reference(d), factor_s = 0;
     double floor = assembly_force_noise(&t->a, t->mesh->xyz);

@@ -46,6 +46,8 @@ typedef struct descent {
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
     bool touching;   /* contact counts now */
+    bool cut;        /* the last step was */
+    int64_t cg_at_load;
     double blend;    /* part of the clamped matrix that the last blend needed */
     bool has_factor; /* of this load's matrix, true, blended or projected */
     int since_factor;
@@ -105,5 +107,5 @@ bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, do
 bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,
                    err *e) MUST_CHECK;
 /* direction = about -(inverse Hessian) g, as exact as is worth it so far from the solution. */
-bool inexact_direction(descent *d, hessian_kind kind, int *cg_iterations, bool *ok, double *seconds,
+bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool *ok, double *seconds,
                        err *e) MUST_CHECK;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double blend_least = 1.0 / 256, blend_ratio = 4; /* as in direct.c */
 enum { CG_MOST = 200, GRID_COST = 20 /* iterations that making a preconditioner is worth */ };
 
 static bool make_grid(descent *d, const double *x, bool *ok, err *e)
@@ -54,25 +55,34 @@ static void note_age(solver *t, const cg_result *r)
         t->grid_loss += fmax(r->iterations - digits * t->grid_rate, 0);
 }
 
-bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok, err *e)
+/* With the present matrix. */
+static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, cg_result *r,
+                      err *e)
 {
     solver *t = d->t;
     double begin = clock_s(), *side = NEW_ARRAY(double, 3 * (size_t)t->f.block_count),
            *found = NEW_ARRAY(double, 3 * (size_t)t->f.block_count);
-    cg_result r;
     node_blocks_scatter(&t->f, b, side);
-    bool fine = cg_solve(&t->k, t->grid, side, found, rel_tol, CG_MOST, &r, e);
+    bool fine = cg_solve(&t->k, t->grid, side, found, rel_tol, CG_MOST, r, e);
     if (fine) {
         node_blocks_gather(&t->f, found, u);
-        note_age(t, &r);
-        *cg_iterations += r.iterations;
-        d->out->cg_iterations += r.iterations;
-        *ok = r.indefinite || r.reduction < 0.5;
+        *cg_iterations += r->iterations;
+        d->out->cg_iterations += r->iterations;
+        d->cg_at_load += r->iterations;
     }
     free(side);
     free(found);
     d->out->solve_s += clock_s() - begin;
     return fine;
+}
+
+bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok, err *e)
+{
+    cg_result r;
+    if (!gradients(d, b, rel_tol, u, cg_iterations, &r, e)) return false;
+    note_age(d->t, &r);
+    *ok = r.indefinite || r.reduction < 0.5;
+    return true;
 }
 
 /* Eisenstat & Walker 1996, choice 2; never below what the tolerance asks for. */
@@ -82,11 +92,40 @@ static double forcing(const descent *d)
     return fmax(fmin(0.9 * rate * rate, 0.1), 0.5 * d->tolerance / d->residual);
 }
 
-bool inexact_direction(descent *d, hessian_kind kind, int *cg_iterations, bool *ok, double *seconds, err *e)
+/* A direction of negative curvature was met after a step that had to be cut, so what the truncated iteration
+ * finds is no good guide: between the true matrix, in which a direction of negative curvature was met, and the clamped one, the first in a
+ * coarse ladder in which no such direction is met; see direct.c. */
+static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result *r, err *e)
 {
-    if (!inexact_matrix(d, d->x, kind, ok, seconds, e)) return false;
+    solver *t = d->t;
+    assembly *a = &t->a;
+    int64_t entries = a->column_start[a->unknown_count];
+    double *true_value = COPY_ARRAY(double, a->value, entries), *mixed = NEW_ARRAY(double, entries);
+    double part = fmax(d->blend / blend_ratio, blend_least);
+    bool fine = true;
+    direct_fill(d, d->x, d->params->projection);
+    for (*kind = HESSIAN_BLENDED; fine && r->indefinite && *kind == HESSIAN_BLENDED; part *= 2) {
+        if (part >= 1) *kind = HESSIAN_PROJECTED;
+        d->blend = fmin(part, 1);
+        for (int64_t i = 0; i < entries; i++)
+            mixed[i] = true_value[i] + d->blend * (a->value[i] - true_value[i]);
+        node_blocks_fill(&t->f, a, mixed, &t->k);
+        fine = gradients(d, d->g, forcing(d), d->direction, cg_iterations, r, e);
+    }
+    free(true_value);
+    free(mixed);
+    return fine;
+}
+
+bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool *ok, double *seconds, err *e)
+{
+    cg_result r;
+    if (!inexact_matrix(d, d->x, *kind, ok, seconds, e)) return false;
     if (!*ok) return true;
-    if (!inexact_solve(d, d->g, forcing(d), d->direction, cg_iterations, ok, e)) return false;
+    if (!gradients(d, d->g, forcing(d), d->direction, cg_iterations, &r, e)) return false;
+    note_age(d->t, &r);
+    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e)) return false;
+    *ok = r.indefinite || r.reduction < 0.5;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->direction[i] = -d->direction[i];
     return true;
 }
