@@ -50,14 +50,14 @@ void stress_tie_ends(const stress_case *c, stress_scene *s)
     }
 }
 
-void body_block(const stress_case *c, stress_scene *s)
+void specimen_block(const stress_case *c, stress_scene *s)
 {
     s->mesh = stress_grid(c->cells, c->size, c->cells[2]);
     s->attach = attach_map_new(s->mesh.vertex_count, 0);
     stress_tie_ends(c, s);
 }
 
-void body_slab(const stress_case *c, stress_scene *s)
+void specimen_slab(const stress_case *c, stress_scene *s)
 {
     s->mesh = stress_grid(c->cells, c->size, c->cells[2]);
     s->attach = attach_map_new(s->mesh.vertex_count, 0);
@@ -70,23 +70,23 @@ void body_slab(const stress_case *c, stress_scene *s)
         }
 }
 
-void body_layers(const stress_case *c, stress_scene *s)
+void specimen_layers(const stress_case *c, stress_scene *s)
 {
-    body_block(c, s);
+    specimen_block(c, s);
     int32_t layer = s->mesh.tet_count / 3;
     for (int32_t t = layer; t < 2 * layer; t++) s->mesh.region[t] = 1;
 }
 
-void body_skin(const stress_case *c, stress_scene *s)
+void specimen_skin(const stress_case *c, stress_scene *s)
 {
-    body_slab(c, s);
+    specimen_slab(c, s);
     int32_t layer = s->mesh.tet_count / c->cells[2];
     for (int32_t t = s->mesh.tet_count - layer; t < s->mesh.tet_count; t++) s->mesh.region[t] = 1;
 }
 
-void body_grains(const stress_case *c, stress_scene *s)
+void specimen_grains(const stress_case *c, stress_scene *s)
 {
-    body_block(c, s);
+    specimen_block(c, s);
     for (int32_t t = 0; t < s->mesh.tet_count; t += (int32_t)c->p) s->mesh.region[t] = 1;
 }
 
@@ -116,24 +116,24 @@ static void split(const stress_case *c, stress_scene *s, const double w[4])
     stress_tie_ends(c, s);
 }
 
-void body_caps(const stress_case *c, stress_scene *s)
+void specimen_caps(const stress_case *c, stress_scene *s)
 {
     split(c, s, (double[]){c->p, (1 - c->p) / 3, (1 - c->p) / 3, (1 - c->p) / 3});
 }
 
-void body_wedges(const stress_case *c, stress_scene *s)
+void specimen_wedges(const stress_case *c, stress_scene *s)
 {
     split(c, s, (double[]){c->p, c->p, 0.5 - c->p, 0.5 - c->p});
 }
 
-void body_needles(const stress_case *c, stress_scene *s)
+void specimen_needles(const stress_case *c, stress_scene *s)
 {
     split(c, s, (double[]){c->p, c->p, c->p, 1 - 3 * c->p});
 }
 
 /* Two chequers meet in the middle plane, where their diagonals cross: with one diagonal of each square a little above
  * the other a tet of the four nodes lies between. */
-void body_slivers(const stress_case *c, stress_scene *s)
+void specimen_slivers(const stress_case *c, stress_scene *s)
 {
     const int *n = c->cells;
     int middle = n[2] / 2;
@@ -166,16 +166,16 @@ void body_slivers(const stress_case *c, stress_scene *s)
     stress_tie_ends(c, s);
 }
 
-void body_graded(const stress_case *c, stress_scene *s)
+void specimen_graded(const stress_case *c, stress_scene *s)
 {
-    body_block(c, s);
+    specimen_block(c, s);
     for (int32_t v = 0; v < s->mesh.vertex_count; v++) {
         double *x = s->mesh.xyz + 3 * (size_t)v;
         x[0] = c->size[0] * (pow(c->p, x[0] / c->size[0]) - 1) / (c->p - 1);
     }
 }
 
-void body_single(const stress_case *c, stress_scene *s)
+void specimen_single(const stress_case *c, stress_scene *s)
 {
     static const double at[12] = {0, 0, 0, 10, 0, 0, 0, 10, 0, 0, 0, 10};
     s->mesh = tetmesh_new(4, 1);

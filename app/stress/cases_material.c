@@ -1,7 +1,7 @@
 /* Near incompressibility, every model, and stiffness contrasts. */
 #include "app/stress/stress.h"
 
-#define SLAB .body = body_slab, .cells = {12, 12, 3}, .size = {60, 60, 15}, .move = {3, 0, 4}
+#define SLAB .body = specimen_slab, .cells = {12, 12, 3}, .size = {60, 60, 15}, .move = {3, 0, 4}
 #define NU(number, ...) {.name = "poisson/" #number, .what = "slab over a patch of bone that moves 5 mm", SLAB, .poisson = number, \
      __VA_ARGS__}
 #define MODEL(label, which, number) \
@@ -10,14 +10,14 @@
     {.name = "averaged/" #number, .what = "the same with averaged volume changes", SLAB, .poisson = number, .average = true}
 #define BLOCK .cells = {6, 6, 6}, .size = {30, 30, 24}, .move = {2, 4, -3}, .turn_deg = 8, .axis = {1, 0.5, 0}
 #define LAYERS(number, ...) \
-    {.name = "layers/" #number, .what = "soft, stiff, soft: bent and sheared", .body = body_layers, BLOCK, .contrast = number, \
+    {.name = "layers/" #number, .what = "soft, stiff, soft: bent and sheared", .body = specimen_layers, BLOCK, .contrast = number, \
      __VA_ARGS__}
 #define SOFT_LAYER(number) \
-    {.name = "soft_layer/" #number, .what = "stiff, soft, stiff", .body = body_layers, BLOCK, .contrast = number}
+    {.name = "soft_layer/" #number, .what = "stiff, soft, stiff", .body = specimen_layers, BLOCK, .contrast = number}
 #define GRAINS(number, ...) \
-    {.name = "grains/" #number, .what = "single tets stiffer or softer than all around", .body = body_grains, BLOCK, \
+    {.name = "grains/" #number, .what = "single tets stiffer or softer than all around", .body = specimen_grains, BLOCK, \
      .p = 11, .contrast = number, __VA_ARGS__}
-#define SKIN(number) {.name = "skin/" #number, .what = "a stiff outer layer on the slab", .body = body_skin, \
+#define SKIN(number) {.name = "skin/" #number, .what = "a stiff outer layer on the slab", .body = specimen_skin, \
                       .cells = {12, 12, 3}, .size = {60, 60, 15}, .move = {3, 0, 4}, .contrast = number}
 
 static const stress_case cases[] = {

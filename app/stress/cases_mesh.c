@@ -1,12 +1,12 @@
 /* Meshes that are small, large, or wrong. */
 #include "app/stress/stress.h"
 
-#define BLOCK .body = body_broken, .cells = {3, 3, 4}, .size = {15, 15, 20}, .move = {1, 2, 3}
+#define BLOCK .body = specimen_broken, .cells = {3, 3, 4}, .size = {15, 15, 20}, .move = {1, 2, 3}
 #define FLAW(label, text, which, ...) {.name = "mesh/" label, .what = text, BLOCK, .flaw = which, __VA_ARGS__}
 #define GEOMETRY(text) .want = WANT_REFUSED, .code = ERR_GEOMETRY, .words = text
 #define INPUT(text) .want = WANT_REFUSED, .code = ERR_INPUT, .words = text
 #define ONE(label, text, nodes, ...) \
-    {.name = "one_tet/" label, .what = text, .body = body_single, .p = nodes, .move = {1, 0, 2}, __VA_ARGS__}
+    {.name = "one_tet/" label, .what = text, .body = specimen_single, .p = nodes, .move = {1, 0, 2}, __VA_ARGS__}
 
 static const stress_case cases[] = {
     ONE("tied", "a single tet, all nodes tied", 4, .check = CHECK_UPRIGHT), ONE("three_tied", "three nodes tied", 3),
@@ -32,9 +32,9 @@ static const stress_case cases[] = {
     FLAW("count", "an attachment map of another mesh", FLAW_COUNT, INPUT("attachment map")),
     FLAW("region", "a region without material", FLAW_REGION, INPUT("material")),
     FLAW("pair", "a node paired with itself", FLAW_PAIR, INPUT("pairs")),
-    {.name = "size/100k", .what = "a rod of 100 thousand tets", .body = body_block, .cells = {12, 12, 139},
+    {.name = "size/100k", .what = "a rod of 100 thousand tets", .body = specimen_block, .cells = {12, 12, 139},
      .size = {24, 24, 278}, .move = {5, 0, 10}, .limit_s = 120, .heavy = true},
-    {.name = "size/1M", .what = "a rod of a million tets", .body = body_block, .cells = {12, 12, 1389},
+    {.name = "size/1M", .what = "a rod of a million tets", .body = specimen_block, .cells = {12, 12, 1389},
      .size = {24, 24, 2778}, .move = {5, 0, 10}, .limit_s = 300, .heavy = true},
 };
 const stress_family stress_meshes = {cases, sizeof cases / sizeof *cases};

@@ -1,14 +1,14 @@
 /* Bone moves from nothing to far more than any plan asks. */
 #include "app/stress/stress.h"
 
-#define SLAB .body = body_slab, .cells = {12, 12, 3}, .size = {60, 60, 15}
+#define SLAB .body = specimen_slab, .cells = {12, 12, 3}, .size = {60, 60, 15}
 #define MOVE(label, x, y, z) {.name = "move/" label, .what = "a patch under the slab moves", SLAB, .move = {x, y, z}}
 #define TURN(label, x, y, z, degrees) \
     {.name = "turn/" label, .what = "a patch under the slab turns", SLAB, .turn_deg = degrees, .axis = {x, y, z}}
-#define BLOCK .body = body_block, .cells = {6, 6, 6}, .size = {30, 30, 24}
+#define BLOCK .body = specimen_block, .cells = {6, 6, 6}, .size = {30, 30, 24}
 #define CRUSH(label, text, mm) {.name = "crush/" label, .what = text, BLOCK, .move = {0, 0, mm}}
 #define SHEAR(label, text, mm, thick) \
-    {.name = "one_layer/" label, .what = text, .body = body_block, .cells = {10, 10, 1}, .size = {30, 30, thick}, \
+    {.name = "one_layer/" label, .what = text, .body = specimen_block, .cells = {10, 10, 1}, .size = {30, 30, thick}, \
      .move = {mm, 0, 0}, .oppose = true}
 
 static const stress_case cases[] = {
@@ -33,11 +33,11 @@ static const stress_case cases[] = {
     {.name = "pull/5x_fcr", .what = "the same, Fixed Corotated", BLOCK, .move = {0, 0, 96}, .model = MATERIAL_FIXED_COROTATED,
      .heavy = true},
     {.name = "pull/20x", .what = "to twenty times", BLOCK, .move = {0, 0, 456}, .heavy = true},
-    {.name = "twist/180", .what = "one end turns by 180 degrees in four loads", .body = body_block, .cells = {4, 4, 8},
+    {.name = "twist/180", .what = "one end turns by 180 degrees in four loads", .body = specimen_block, .cells = {4, 4, 8},
      .size = {15, 15, 40}, .turn_deg = 179.9, .axis = {0, 0, 1}, .load_steps = 4},
     SHEAR("shear_2", "two segments slide 2 mm across 2 mm of tissue", 1, 2),
     SHEAR("shear_20", "the same, 20 mm across 2 mm", 10, 2), SHEAR("shear_20_thin", "20 mm across 0.1 mm", 10, 0.1),
-    {.name = "one_layer/free", .what = "the middle of one layer is free, its sides pulled apart", .body = body_block,
+    {.name = "one_layer/free", .what = "the middle of one layer is free, its sides pulled apart", .body = specimen_block,
      .cells = {10, 10, 2}, .size = {30, 30, 2}, .move = {10, 0, 0}, .oppose = true},
 };
 const stress_family stress_moves = {cases, sizeof cases / sizeof *cases};

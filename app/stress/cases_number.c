@@ -1,7 +1,7 @@
 /* Tolerances and units. */
 #include "app/stress/stress.h"
 
-#define SLAB .body = body_slab, .cells = {10, 10, 3}, .size = {60, 60, 15}, .move = {3, 0, 4}
+#define SLAB .body = specimen_slab, .cells = {10, 10, 3}, .size = {60, 60, 15}, .move = {3, 0, 4}
 #define TOL(number) {.name = "tolerance/" #number, .what = "slab, patch moved 5 mm", SLAB, .rel_tol = number}
 #define UNITS(label, text, ...) {.name = "units/" label, .what = text, SLAB, .check = CHECK_SCALED, __VA_ARGS__}
 

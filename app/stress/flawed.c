@@ -157,7 +157,7 @@ static void mishang(const stress_case *c, stress_scene *s)
     }
 }
 
-void body_broken(const stress_case *c, stress_scene *s)
+void specimen_broken(const stress_case *c, stress_scene *s)
 {
     s->mesh = stress_grid(c->cells, c->size, c->cells[2]);
     damage(c, &s->mesh);

@@ -1,16 +1,9 @@
-/* One case, solved and judged; in a child process, so that a crash or an endless loop is a result like others. */
+/* One case, solved and judged. */
 #include "app/stress/stress.h"
-#include "app/command.h"
-#include "geometry/mem.h"
+#include "app/child.h"
 #include <math.h>
-#include <poll.h>
-#include <signal.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <time.h>
-#include <unistd.h>
 
 static double now_s(clockid_t clock)
 {
@@ -85,72 +78,27 @@ stress_result stress_solve(const stress_case *c)
     return r;
 }
 
-/* Reads the child's result; false: it ended, or the time did, before all of it was there. */
-static bool receive(int from, double deadline, stress_result *r, bool *late)
+static void solve_in_child(void *context, void *result)
 {
-    size_t have = 0;
-    stress_result got;
-    *late = false;
-    while (have < sizeof got) {
-        double left = deadline - now_s(CLOCK_MONOTONIC);
-        struct pollfd wait = {.fd = from, .events = POLLIN};
-        if (left <= 0 || app_interrupted()) {
-            *late = true;
-            return false;
-        }
-        if (poll(&wait, 1, (int)(1000 * (left < 1 ? left : 1)) + 1) <= 0) continue;
-        ssize_t n = read(from, (char *)&got + have, sizeof got - have);
-        if (n <= 0) return false;
-        have += (size_t)n;
-    }
-    *r = got;
-    return true;
+    stress_result own = stress_solve(context);
+    memcpy(result, &own, sizeof own);
 }
 
 stress_result stress_run(const stress_case *c, double patience)
 {
-    double limit = patience * (c->limit_s > 0 ? c->limit_s : 60), begin = now_s(CLOCK_MONOTONIC);
-    int way[2];
+    double limit = patience * (c->limit_s > 0 ? c->limit_s : 60);
     stress_result r = nothing_known();
-    r.kind = STRESS_CRASHED;
-    fflush(NULL);
-    if (pipe(way)) {
-        snprintf(r.text, sizeof r.text, "no pipe to a child process");
-        return r;
+    child_use use;
+    child_end end = child_run(solve_in_child, (void *)c, &r, sizeof r, limit, &use);
+    if (end != CHILD_DONE) {
+        r.kind = end == CHILD_CRASHED ? STRESS_CRASHED : STRESS_TIMED_OUT;
+        r.seconds = use.wall_s;
+        r.cpu_s = use.cpu_s;
     }
-    pid_t child = fork();
-    if (child == 0) {
-        close(way[0]);
-        struct rlimit no_core = {0, 0}, time = {(rlim_t)ceil(limit), (rlim_t)ceil(limit) + 5};
-        setrlimit(RLIMIT_CORE, &no_core);
-        setrlimit(RLIMIT_CPU, &time);
-        stress_result own = stress_solve(c);
-        for (size_t sent = 0; sent < sizeof own;) {
-            ssize_t n = write(way[1], (const char *)&own + sent, sizeof own - sent);
-            if (n <= 0) _exit(1);
-            sent += (size_t)n;
-        }
-        _exit(0);
-    }
-    close(way[1]);
-    bool late = false, whole = child > 0 && receive(way[0], begin + 10 * limit, &r, &late);
-    close(way[0]);
-    int status = 0;
-    struct rusage used = {0};
-    if (child > 0) {
-        if (!whole && late) kill(child, SIGKILL);
-        while (wait4(child, &status, 0, &used) < 0 && !app_interrupted()) {}
-    }
-    if (!whole && (late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))) {
-        r.kind = STRESS_TIMED_OUT;
-        snprintf(r.text, sizeof r.text, "no end in %.0f s", limit);
-    } else if (!whole || !WIFEXITED(status) || WEXITSTATUS(status)) {
-        r.kind = STRESS_CRASHED;
-        if (WIFSIGNALED(status)) snprintf(r.text, sizeof r.text, "killed by signal %d", WTERMSIG(status));
-        else snprintf(r.text, sizeof r.text, "ended with status %d", WEXITSTATUS(status));
-    }
-    r.memory_mb = (double)used.ru_maxrss / 1024;
-    if (!(r.seconds >= 0)) r.seconds = now_s(CLOCK_MONOTONIC) - begin;
+    if (end == CHILD_LATE) snprintf(r.text, sizeof r.text, "no end in %.0f s", limit);
+    if (end == CHILD_CRASHED && use.signal) snprintf(r.text, sizeof r.text, "killed by signal %d", use.signal);
+    if (end == CHILD_CRASHED && !use.signal) snprintf(r.text, sizeof r.text, "ended with status %d", use.status);
+    r.memory_mb = use.peak_mb;
     judge(c, &r);
     return r;
 }

@@ -56,7 +56,7 @@ struct stress_case {
     int cells[3];
     double size[3];    /* mm */
     double p;          /* what the body makes of it: quality, gap, height; see the body */
-    int flaw;          /* of body_broken: mesh_flaw */
+    int flaw;          /* of specimen_broken: mesh_flaw */
     int model;         /* material_model */
     double young, poisson, contrast; /* 0: 15 kPa, 0.45, 1; contrast: stiffness of region 1 over region 0 */
     double move[3], turn_deg, axis[3]; /* of the maxilla; about the middle of its nodes */
@@ -115,23 +115,23 @@ stress_result stress_run(const stress_case *c, double patience);
 void stress_verify(const stress_case *c, const stress_scene *s, const equilibrium *q, stress_result *r);
 
 /* Bodies. Block: between distal (bottom) and maxilla (top). */
-void body_block(const stress_case *c, stress_scene *s);
-void body_slab(const stress_case *c, stress_scene *s);   /* on the cranium but for a patch of the maxilla */
-void body_layers(const stress_case *c, stress_scene *s); /* block; the middle third is region 1 */
-void body_skin(const stress_case *c, stress_scene *s);   /* slab; the outer layer is region 1 */
-void body_grains(const stress_case *c, stress_scene *s); /* block; one tet in p is region 1 */
-void body_caps(const stress_case *c, stress_scene *s);   /* block; every 7th tet split by a node p off a face, */
-void body_wedges(const stress_case *c, stress_scene *s);  /* off an edge, */
-void body_needles(const stress_case *c, stress_scene *s); /* off a node (p of the tet's size) */
-void body_slivers(const stress_case *c, stress_scene *s); /* block; a layer of slivers of thickness p in the middle */
-void body_graded(const stress_case *c, stress_scene *s);  /* block; cells grow p-fold from one side to the other */
-void body_single(const stress_case *c, stress_scene *s);  /* one tet; p nodes of it tied */
-void body_broken(const stress_case *c, stress_scene *s);  /* block with a flaw */
-void body_on_plane(const stress_case *c, stress_scene *s); /* block tied at its top, p above a plane of the distal bone */
-void body_on_teeth(const stress_case *c, stress_scene *s); /* above a field of pyramids, p mm high */
-void body_on_ball(const stress_case *c, stress_scene *s);  /* above a ball of radius p */
-void body_on_rim(const stress_case *c, stress_scene *s);   /* half of it beside a plane that ends under it */
-void body_lips(const stress_case *c, stress_scene *s);     /* two blocks, p apart */
+void specimen_block(const stress_case *c, stress_scene *s);
+void specimen_slab(const stress_case *c, stress_scene *s);   /* on the cranium but for a patch of the maxilla */
+void specimen_layers(const stress_case *c, stress_scene *s); /* block; the middle third is region 1 */
+void specimen_skin(const stress_case *c, stress_scene *s);   /* slab; the outer layer is region 1 */
+void specimen_grains(const stress_case *c, stress_scene *s); /* block; one tet in p is region 1 */
+void specimen_caps(const stress_case *c, stress_scene *s);   /* block; every 7th tet split by a node p off a face, */
+void specimen_wedges(const stress_case *c, stress_scene *s);  /* off an edge, */
+void specimen_needles(const stress_case *c, stress_scene *s); /* off a node (p of the tet's size) */
+void specimen_slivers(const stress_case *c, stress_scene *s); /* block; a layer of slivers of thickness p in the middle */
+void specimen_graded(const stress_case *c, stress_scene *s);  /* block; cells grow p-fold from one side to the other */
+void specimen_single(const stress_case *c, stress_scene *s);  /* one tet; p nodes of it tied */
+void specimen_broken(const stress_case *c, stress_scene *s);  /* block with a flaw */
+void specimen_on_plane(const stress_case *c, stress_scene *s); /* block tied at its top, p above a plane of the distal bone */
+void specimen_on_teeth(const stress_case *c, stress_scene *s); /* above a field of pyramids, p mm high */
+void specimen_on_ball(const stress_case *c, stress_scene *s);  /* above a ball of radius p */
+void specimen_on_rim(const stress_case *c, stress_scene *s);   /* half of it beside a plane that ends under it */
+void specimen_lips(const stress_case *c, stress_scene *s);     /* two blocks, p apart */
 
 typedef enum mesh_flaw {
     FLAW_CRACK,      /* nodes of the middle layer doubled: two blocks that touch, both held */

@@ -9,11 +9,11 @@
 double stress_height(const stress_case *c, double x, double y)
 {
     double u = x - c->size[0] / 2, w = y - c->size[1] / 2;
-    if (c->body == body_on_teeth) { /* pyramids every 4 mm */
+    if (c->body == specimen_on_teeth) { /* pyramids every 4 mm */
         double a = fabs(remainder(u, 4)) / 2, b = fabs(remainder(w, 4)) / 2;
         return c->p * (1 - fmax(a, b)) - c->p;
     }
-    if (c->body == body_on_ball) return sqrt(fmax(c->p * c->p - u * u - w * w, 0)) - c->p;
+    if (c->body == specimen_on_ball) return sqrt(fmax(c->p * c->p - u * u - w * w, 0)) - c->p;
     return -c->p;
 }
 
@@ -59,25 +59,25 @@ static void over(const stress_case *c, stress_scene *s, surface bone)
     s->touches = true;
 }
 
-void body_on_plane(const stress_case *c, stress_scene *s)
+void specimen_on_plane(const stress_case *c, stress_scene *s)
 {
     over(c, s, field(c, -8, 2, 8));
 }
-void body_on_teeth(const stress_case *c, stress_scene *s)
+void specimen_on_teeth(const stress_case *c, stress_scene *s)
 {
     over(c, s, field(c, c->size[0] / 2 - 24, 1, 8)); /* samples on tips and valleys */
 }
-void body_on_ball(const stress_case *c, stress_scene *s)
+void specimen_on_ball(const stress_case *c, stress_scene *s)
 {
     over(c, s, field(c, -8, 1, 8));
 }
-void body_on_rim(const stress_case *c, stress_scene *s)
+void specimen_on_rim(const stress_case *c, stress_scene *s)
 {
     over(c, s, field(c, c->size[0] / 2, 2, 8));
 }
 
 /* Two blocks, the upper one p above the lower one, paired node by node. */
-void body_lips(const stress_case *c, stress_scene *s)
+void specimen_lips(const stress_case *c, stress_scene *s)
 {
     const int *n = c->cells;
     int cut = n[2] / 2;
