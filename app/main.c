@@ -40,7 +40,7 @@ const verb verbs[] = {
     {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
     {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
     {"audit", "run many plans and list which are feasible", NOT_BUILT},
-    {"study", "error against run time of a case", NOT_BUILT},
+    {"study", "error against run time of a case", WITH_SIM(command_study)},
     {"stress", "stiff materials and extreme moves", WITH_SOLVER(command_stress)},
     {"report", "one page with pictures and tables of an outcome", NOT_BUILT},
     {"serve", "plan in a browser", NOT_BUILT},
