@@ -82,6 +82,8 @@ static bool run_ladder(const struct input *in, study_table *t, err *e)
         if (!study_get(t->task, &study_rungs[i], &t->run[i], &fresh, e)) return false;
         t->count = i + 1;
     }
+    command_progress_at(&in->common, "a tube with an exact answer", 0.98);
+    if (!study_tubes(t->task, t->tube, e)) return false;
     return t->run[study_reference].result.solved ||
            err_set(e, ERR_NOT_CONVERGED, "the reference, %s, has no result (%s): there is nothing to compare with",
                    study_rungs[study_reference].name, t->run[study_reference].result.text);

@@ -91,6 +91,18 @@ double study_order(const double d[2]);
 /* Least squares slope of log error over log size; NaN for fewer than two. */
 double study_slope(const double *h, const double *error, int count);
 
+/* The same solver on a question with an exact answer: a turned tube, 4 to 16 cells through its wall. Plain data. */
+enum { STUDY_TUBES = 12 };
+typedef struct study_tube {
+    int cells;
+    bool average, solved;
+    double poisson;
+    int64_t unknowns;
+    int iterations;
+    double wall_s, error_mm; /* root mean square over the nodes; their largest displacement is 4.5 mm */
+} study_tube;
+bool study_tubes(const study_task *task, study_tube out[STUDY_TUBES], err *e) MUST_CHECK;
+
 typedef struct study_table {
     const study_task *task;
     const char *plan_name;
@@ -101,6 +113,7 @@ typedef struct study_table {
     double order, reference_error_mm; /* Richardson: of the family; of the reference, in the mean */
     double plain_slope, average_slope;
     int32_t cores;
+    study_tube tube[STUDY_TUBES];
 } study_table;
 void study_table_make(study_table *t); /* from task, run */
 void study_table_free(study_table *t);
