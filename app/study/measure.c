@@ -5,6 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+void study_run_free(study_run *r)
+{
+    free(r->skin_mm);
+    free(r->point_mm);
+    *r = (study_run){0};
+}
+
 static int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;

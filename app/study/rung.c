@@ -240,10 +240,3 @@ bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool
     if (!add_peak(path, use.peak_mb, e)) return false;
     return read_run(path, t->key, out) || err_set(e, ERR_INTERNAL, "%s: cannot be read back", path);
 }
-
-void study_run_free(study_run *r)
-{
-    free(r->skin_mm);
-    free(r->point_mm);
-    *r = (study_run){0};
-}
