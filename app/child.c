@@ -51,7 +51,8 @@ static child_end receive(int from, double deadline, char *result, size_t size)
     return CHILD_DONE;
 }
 
-child_end child_run(child_body *body, void *context, void *result, size_t size, double cpu_limit_s, child_use *use)
+child_end child_run(child_body *body, void *context, void *result, size_t size, double cpu_limit_s,
+                    child_use *use)
 {
     double begin = wall_s();
     int way[2], status = 0;

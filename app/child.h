@@ -1,4 +1,5 @@
-/* child: work in a process of its own, so that a crash, an endless loop or a peak of memory is a result like others. */
+/* child: work in a process of its own, so that a crash, an endless loop or a peak of memory is a result like
+ * others. */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,4 +20,5 @@ typedef struct child_use {
 typedef void child_body(void *context, void *result);
 
 /* The caller must not have started threads yet. *result is written only at CHILD_DONE. */
-child_end child_run(child_body *body, void *context, void *result, size_t size, double cpu_limit_s, child_use *use);
+child_end child_run(child_body *body, void *context, void *result, size_t size, double cpu_limit_s,
+                    child_use *use);

@@ -30,26 +30,40 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     struct input *in = state->input;
     char *end;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'o': in->out = arg; return 0;
-    case 'f': in->force = true; return 0;
-    case KEY_LIST: in->list = true; return 0;
-    case KEY_ONLY: in->only = arg; return 0;
-    case KEY_QUICK: in->quick = true; return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &in->common;
+        return 0;
+    case 'o':
+        in->out = arg;
+        return 0;
+    case 'f':
+        in->force = true;
+        return 0;
+    case KEY_LIST:
+        in->list = true;
+        return 0;
+    case KEY_ONLY:
+        in->only = arg;
+        return 0;
+    case KEY_QUICK:
+        in->quick = true;
+        return 0;
     case KEY_PATIENCE:
         in->patience = strtod(arg, &end);
         if (end == arg || *end || !(in->patience > 0 && in->patience <= 1000))
             argp_error(state, "--patience %s: must be a number above 0, at most 1000", arg);
         return 0;
-    case ARGP_KEY_ARG: return command_take(arg, NULL, 0, state);
-    default: return ARGP_ERR_UNKNOWN;
+    case ARGP_KEY_ARG:
+        return command_take(arg, NULL, 0, state);
+    default:
+        return ARGP_ERR_UNKNOWN;
     }
 }
 
 static int choose(const struct input *in, const stress_case **chosen)
 {
     static const stress_family *const families[] = {&stress_materials, &stress_shapes, &stress_moves,
-                                                    &stress_touching, &stress_meshes, &stress_numbers};
+                                                    &stress_touching,  &stress_meshes, &stress_numbers};
     int count = 0;
     for (size_t f = 0; f < sizeof families / sizeof *families; f++)
         for (int i = 0; i < families[f]->count; i++) {
@@ -72,22 +86,25 @@ static bool run_all(const struct input *in, const stress_case *const *c, stress_
     return true;
 }
 
-static int conclude(const struct input *in, const stress_case *const *c, const stress_result *r, int count, err *e)
+static int conclude(const struct input *in, const stress_case *const *c, const stress_result *r, int count,
+                    err *e)
 {
     int wrong = 0;
     for (int i = 0; i < count; i++)
         if (r[i].wrong[0] && !c[i]->known && wrong++ < 1)
             err_set(e, ERR_INTERNAL, "%s: %s; %s", c[i]->name, r[i].wrong, r[i].text);
-    if (in->common.json) command_print_json(stress_json(c, r, count), "stress");
-    else stress_print(c, r, count, stdout);
+    if (in->common.json)
+        command_print_json(stress_json(c, r, count), "stress");
+    else
+        stress_print(c, r, count, stdout);
     return wrong ? command_fail(e) : 0;
 }
 
 int command_stress(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, NULL,
-                                     "Solve stiff and extreme cases and check what the solver says of each.",
-                                     command_common, NULL, NULL};
+    static const struct argp argp = {
+        options,        parse, NULL, "Solve stiff and extreme cases and check what the solver says of each.",
+        command_common, NULL,  NULL};
     struct input in = {.patience = 1};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};
@@ -103,8 +120,10 @@ int command_stress(int argc, char **argv)
     int status = 0;
     if (in.list) {
         for (int i = 0; i < count; i++) printf("%-24s %s\n", chosen[i]->name, chosen[i]->what);
-    } else if ((!in.out || output_dir_open(in.out, in.force, &dir, &e)) && run_all(&in, chosen, results, count, &e) &&
-               (!in.out || (stress_write(chosen, results, count, dir.part.temporary, &e) && output_dir_close(&dir, &e)))) {
+    } else if ((!in.out || output_dir_open(in.out, in.force, &dir, &e)) &&
+               run_all(&in, chosen, results, count, &e) &&
+               (!in.out || (stress_write(chosen, results, count, dir.part.temporary, &e) &&
+                            output_dir_close(&dir, &e)))) {
         status = conclude(&in, chosen, results, count, &e);
     } else {
         if (in.out) output_dir_abandon(&dir);

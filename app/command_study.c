@@ -1,4 +1,5 @@
-/* gnathos study CASE [--plan P] -o DIR: error against run time; --ratios: soft : hard ratios beside published ones. */
+/* gnathos study CASE [--plan P] -o DIR: error against run time; --ratios: soft : hard ratios beside published
+ * ones. */
 #include "app/study/study.h"
 #include "geometry/json_file.h"
 #include "geometry/mem.h"
@@ -27,18 +28,32 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 {
     struct input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'p': in->plan = arg; return 0;
-    case 'o': in->out = arg; return 0;
-    case KEY_RATIOS: in->ratios = true; return 0;
-    case KEY_CACHE: in->cache = arg; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &in->common;
+        return 0;
+    case 'p':
+        in->plan = arg;
+        return 0;
+    case 'o':
+        in->out = arg;
+        return 0;
+    case KEY_RATIOS:
+        in->ratios = true;
+        return 0;
+    case KEY_CACHE:
+        in->cache = arg;
+        return 0;
+    case ARGP_KEY_ARG:
+        return command_take(arg, in->case_path, 1, state);
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "name a case");
+        return 0;
     case ARGP_KEY_END:
         if (!in->out) argp_error(state, "name a folder for the study with -o");
         if (in->ratios && in->plan) argp_error(state, "--ratios has its own moves: leave --plan out");
         return 0;
-    default: return ARGP_ERR_UNKNOWN;
+    default:
+        return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -56,7 +71,8 @@ static bool open_folder(const char *path, err *e)
     if (!make_folder(path, e)) return false;
     if (access(marker, F_OK)) {
         if (rmdir(path))
-            return err_at(e, ERR_INPUT, path, 0, NULL, "holds something else than a study; name a new or an empty folder");
+            return err_at(e, ERR_INPUT, path, 0, NULL,
+                          "holds something else than a study; name a new or an empty folder");
         json_t *mark = json_pack("{ss ss}", "schema", "gnathos.study.1", "version", GNATHOS_VERSION);
         bool ok = make_folder(path, e) && json_file_write(mark, marker, e);
         json_decref(mark);
@@ -67,7 +83,9 @@ static bool open_folder(const char *path, err *e)
     const char *schema = json_string_value(json_object_get(f.root, "schema"));
     bool ours = schema && !strcmp(schema, "gnathos.study.1");
     json_file_free(&f);
-    if (!ours) return err_at(e, ERR_INPUT, path, 0, NULL, "holds other results of gnathos; name a new or an empty folder");
+    if (!ours)
+        return err_at(e, ERR_INPUT, path, 0, NULL,
+                      "holds other results of gnathos; name a new or an empty folder");
     snprintf(sub, sizeof sub, "%s/runs", path);
     if (!make_folder(sub, e)) return false;
     snprintf(sub, sizeof sub, "%s/prepared", path);
@@ -85,19 +103,24 @@ static bool run_ladder(const struct input *in, study_table *t, err *e)
     command_progress_at(&in->common, "a tube with an exact answer", 0.98);
     if (!study_tubes(t->task, t->tube, e)) return false;
     return t->run[study_reference].result.solved ||
-           err_set(e, ERR_NOT_CONVERGED, "the reference, %s, has no result (%s): there is nothing to compare with",
+           err_set(e, ERR_NOT_CONVERGED,
+                   "the reference, %s, has no result (%s): there is nothing to compare with",
                    study_rungs[study_reference].name, t->run[study_reference].result.text);
 }
 
 static bool study(const struct input *in, study_task *task, const char *plan_name, err *e)
 {
-    study_table t = {.task = task, .plan_name = plan_name, .run = NEW_ARRAY(study_run, study_rung_count),
+    study_table t = {.task = task,
+                     .plan_name = plan_name,
+                     .run = NEW_ARRAY(study_run, study_rung_count),
                      .cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN)};
     bool ok = study_task_key(task, e) && run_ladder(in, &t, e);
     if (ok) study_table_make(&t);
     ok = ok && study_write(&t, in->out, e);
-    if (ok && in->common.json) command_print_json(study_json(&t), "study");
-    else if (ok) study_print(&t, stdout);
+    if (ok && in->common.json)
+        command_print_json(study_json(&t), "study");
+    else if (ok)
+        study_print(&t, stdout);
     study_table_free(&t);
     return ok;
 }
@@ -114,7 +137,8 @@ static bool ratios(const struct input *in, study_task *task, err *e)
 
 int command_study(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, "CASE", "Error against run time of a case.", command_common, NULL, NULL};
+    static const struct argp argp = {options,        parse, "CASE", "Error against run time of a case.",
+                                     command_common, NULL,  NULL};
     struct input in = {0};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};
@@ -127,10 +151,12 @@ int command_study(int argc, char **argv)
     snprintf(own_plan, sizeof own_plan, "%s/plan.json", c.folder);
     const char *plan_path = in.plan ? in.plan : own_plan;
     bool ok = landmarks_read(c.landmarks, &points, NULL, &e) &&
-              (in.ratios || plan_moves_load(plan_path, &c, &points, &plan, &moves, &e)) && open_folder(in.out, &e);
+              (in.ratios || plan_moves_load(plan_path, &c, &points, &plan, &moves, &e)) &&
+              open_folder(in.out, &e);
     landmarks_free(&points);
     if (!ok) return command_fail(&e);
-    study_task task = {.patient = &c, .load_steps = plan.load_steps, .folder = in.out, .cache = in.cache, .name = "plan"};
+    study_task task = {
+        .patient = &c, .load_steps = plan.load_steps, .folder = in.out, .cache = in.cache, .name = "plan"};
     memcpy(task.motion, moves.move, sizeof task.motion);
     ok = in.ratios ? ratios(&in, &task, &e) : study(&in, &task, *plan.name ? plan.name : "plan", &e);
     return ok ? 0 : command_fail(&e);

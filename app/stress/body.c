@@ -103,7 +103,8 @@ static void split(const stress_case *c, stress_scene *s, const double w[4])
             memcpy(m.tet + 4 * (size_t)t++, corner, 4 * sizeof *corner);
             continue;
         }
-        for (int a = 0; a < 4; a++) vec_axpy(m.xyz + 3 * (size_t)v, w[a], old.xyz + 3 * (size_t)corner[a], m.xyz + 3 * (size_t)v);
+        for (int a = 0; a < 4; a++)
+            vec_axpy(m.xyz + 3 * (size_t)v, w[a], old.xyz + 3 * (size_t)corner[a], m.xyz + 3 * (size_t)v);
         for (int a = 0; a < 4; a++, t++) {
             memcpy(m.tet + 4 * (size_t)t, corner, 4 * sizeof *corner);
             m.tet[4 * (size_t)t + a] = v;
@@ -131,8 +132,8 @@ void specimen_needles(const stress_case *c, stress_scene *s)
     split(c, s, (double[]){c->p, c->p, c->p, 1 - 3 * c->p});
 }
 
-/* Two chequers meet in the middle plane, where their diagonals cross: with one diagonal of each square a little above
- * the other a tet of the four nodes lies between. */
+/* Two chequers meet in the middle plane, where their diagonals cross: with one diagonal of each square a
+ * little above the other a tet of the four nodes lies between. */
 void specimen_slivers(const stress_case *c, stress_scene *s)
 {
     const int *n = c->cells;
@@ -182,5 +183,6 @@ void specimen_single(const stress_case *c, stress_scene *s)
     memcpy(s->mesh.xyz, at, sizeof at);
     for (int a = 0; a < 4; a++) s->mesh.tet[a] = a;
     s->attach = attach_map_new(4, 0);
-    for (int32_t v = 0; v < (int32_t)c->p; v++) stress_tie(&s->attach, v, v == 0 ? SEGMENT_MAXILLA : SEGMENT_DISTAL);
+    for (int32_t v = 0; v < (int32_t)c->p; v++)
+        stress_tie(&s->attach, v, v == 0 ? SEGMENT_MAXILLA : SEGMENT_DISTAL);
 }

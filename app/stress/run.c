@@ -15,10 +15,18 @@ static double now_s(clockid_t clock)
 static stress_result nothing_known(void)
 {
     double unknown = (double)NAN;
-    return (stress_result){.residual_mn = unknown, .tolerance_mn = unknown, .checked_mn = unknown,
-                           .correction_mm = unknown, .energy_uj = unknown, .min_j = unknown,
-                           .max_stretch = unknown, .moved_mm = unknown, .depth_mm = unknown,
-                           .seconds = unknown, .cpu_s = unknown, .memory_mb = unknown};
+    return (stress_result){.residual_mn = unknown,
+                           .tolerance_mn = unknown,
+                           .checked_mn = unknown,
+                           .correction_mm = unknown,
+                           .energy_uj = unknown,
+                           .min_j = unknown,
+                           .max_stretch = unknown,
+                           .moved_mm = unknown,
+                           .depth_mm = unknown,
+                           .seconds = unknown,
+                           .cpu_s = unknown,
+                           .memory_mb = unknown};
 }
 
 static void judge(const stress_case *c, stress_result *r)
@@ -26,14 +34,23 @@ static void judge(const stress_case *c, stress_result *r)
     static const char *const what[] = {"solved", "refused", "gave up", "crashed", "ran out of time"};
     bool right = false;
     switch ((stress_want)c->want) {
-    case WANT_SOLVED: right = r->kind == STRESS_SOLVED; break;
-    case WANT_REFUSED: right = r->kind == STRESS_REFUSED; break;
-    case MAY_GIVE_UP: right = r->kind == STRESS_SOLVED || r->kind == STRESS_GAVE_UP; break;
-    case MUST_GIVE_UP: right = r->kind == STRESS_GAVE_UP; break;
+    case WANT_SOLVED:
+        right = r->kind == STRESS_SOLVED;
+        break;
+    case WANT_REFUSED:
+        right = r->kind == STRESS_REFUSED;
+        break;
+    case MAY_GIVE_UP:
+        right = r->kind == STRESS_SOLVED || r->kind == STRESS_GAVE_UP;
+        break;
+    case MUST_GIVE_UP:
+        right = r->kind == STRESS_GAVE_UP;
+        break;
     }
     if (!right && !r->wrong[0]) snprintf(r->wrong, sizeof r->wrong, "%s", what[r->kind]);
     if (r->kind != STRESS_REFUSED || r->wrong[0]) return;
-    if (r->code != c->code) snprintf(r->wrong, sizeof r->wrong, "refused with status %d, not %d", r->code, c->code);
+    if (r->code != c->code)
+        snprintf(r->wrong, sizeof r->wrong, "refused with status %d, not %d", r->code, c->code);
     else if (c->words && !strstr(r->text, c->words))
         snprintf(r->wrong, sizeof r->wrong, "the refusal does not say \"%s\"", c->words);
 }
@@ -96,8 +113,10 @@ stress_result stress_run(const stress_case *c, double patience)
         r.cpu_s = use.cpu_s;
     }
     if (end == CHILD_LATE) snprintf(r.text, sizeof r.text, "no end in %.0f s", limit);
-    if (end == CHILD_CRASHED && use.signal) snprintf(r.text, sizeof r.text, "killed by signal %d", use.signal);
-    if (end == CHILD_CRASHED && !use.signal) snprintf(r.text, sizeof r.text, "ended with status %d", use.status);
+    if (end == CHILD_CRASHED && use.signal)
+        snprintf(r.text, sizeof r.text, "killed by signal %d", use.signal);
+    if (end == CHILD_CRASHED && !use.signal)
+        snprintf(r.text, sizeof r.text, "ended with status %d", use.status);
     r.memory_mb = use.peak_mb;
     judge(c, &r);
     return r;

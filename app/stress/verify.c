@@ -1,5 +1,6 @@
-/* Is what is called solved an equilibrium? Forces, volumes and places anew from the returned positions, with nothing of
- * the solver's but the materials' stress, the numbering of unknowns and (for one more Newton step) the matrix. */
+/* Is what is called solved an equilibrium? Forces, volumes and places anew from the returned positions, with
+ * nothing of the solver's but the materials' stress, the numbering of unknowns and (for one more Newton step)
+ * the matrix. */
 #include "app/stress/stress.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
@@ -31,71 +32,6 @@ static void fail(check *k, const char *fmt, ...)
     va_end(args);
 }
 
-static void deformation(const check *k, const double *x, int32_t t, double F[9], double g[12], double *volume)
-{
-    const int32_t *v = k->s->mesh.tet + 4 * (size_t)t;
-    double D[3][3], d[3][3], six;
-    for (int a = 0; a < 3; a++) {
-        vec_sub(k->s->mesh.xyz + 3 * (size_t)v[a + 1], k->s->mesh.xyz + 3 * (size_t)v[0], D[a]);
-        vec_sub(x + 3 * (size_t)v[a + 1], x + 3 * (size_t)v[0], d[a]);
-    }
-    for (int a = 0; a < 3; a++) vec_cross(D[(a + 1) % 3], D[(a + 2) % 3], g + 3 * (a + 1));
-    six = vec_dot(D[0], g + 3);
-    memset(g, 0, 3 * sizeof *g);
-    for (int a = 1; a < 4; a++) {
-        vec_scale(g + 3 * a, 1 / six, g + 3 * a);
-        vec_sub(g, g + 3 * a, g);
-    }
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) F[3 * i + j] = d[0][i] * g[3 + j] + d[1][i] * g[6 + j] + d[2][i] * g[9 + j];
-    *volume = six / 6;
-}
-
-/* Pressures of averaged volume changes at the nodes, else NULL. Caller frees. */
-static double *node_pressures(const check *k, const double *x)
-{
-    if (!k->s->average) return NULL;
-    int32_t n = k->s->mesh.vertex_count;
-    double *before = NEW_ARRAY(double, n), *after = NEW_ARRAY(double, n);
-    for (int32_t t = 0; t < k->s->mesh.tet_count; t++) {
-        double F[9], g[12], volume;
-        deformation(k, x, t, F, g, &volume);
-        for (int a = 0; a < 4; a++) {
-            before[k->s->mesh.tet[4 * (size_t)t + a]] += volume;
-            after[k->s->mesh.tet[4 * (size_t)t + a]] += volume * mat_det(F);
-        }
-    }
-    for (int32_t v = 0; v < n; v++) after[v] = k->s->material[0].material.lambda_kpa * (after[v] / before[v] - 1);
-    free(before);
-    return after;
-}
-
-/* force[3*nodes]: derivative of the elastic energy, mN; returns the energy (but for averaged volumes), uJ. */
-static double forces(const check *k, const double *x, double *force)
-{
-    const tetmesh *m = &k->s->mesh;
-    double energy = 0, *pressure = node_pressures(k, x);
-    memset(force, 0, 3 * (size_t)m->vertex_count * sizeof *force);
-    for (int32_t t = 0; t < m->tet_count; t++) {
-        double F[9], g[12], P[9], volume, push[3];
-        const int32_t *v = m->tet + 4 * (size_t)t;
-        deformation(k, x, t, F, g, &volume);
-        material one = k->s->material[m->region[t] && k->s->material_count > 1].material;
-        if (pressure) {
-            one.lambda_kpa = 0;
-            one.pressure_kpa = (pressure[v[0]] + pressure[v[1]] + pressure[v[2]] + pressure[v[3]]) / 4;
-        }
-        energy += volume * material_energy(&one, F);
-        material_stress(&one, F, P);
-        for (int a = 0; a < 4; a++) {
-            mat_apply(P, g + 3 * a, push);
-            vec_axpy(force + 3 * (size_t)v[a], volume, push, force + 3 * (size_t)v[a]);
-        }
-    }
-    free(pressure);
-    return energy;
-}
-
 static bool take_boundary(check *k)
 {
     err e = {0};
@@ -116,7 +52,8 @@ static bool take_boundary(check *k)
             k->touching[a->pair[i]] = 1;
         else
             k->attach.pair[i] = a->pair[i];
-    if (!k->s->touches) memcpy(k->attach.pair_normal, a->pair_normal, 3 * (size_t)a->pair_count * sizeof(double));
+    if (!k->s->touches)
+        memcpy(k->attach.pair_normal, a->pair_normal, 3 * (size_t)a->pair_count * sizeof(double));
     if (!boundary_make(&k->s->mesh, &k->attach, &k->b, &e)) {
         fail(k, "solved, but its boundary is refused: %.150s", e.text);
         return false;
@@ -128,10 +65,12 @@ static bool take_boundary(check *k)
 static void check_places(check *k)
 {
     const double *x = k->q->xyz;
-    double off = 0, *z = NEW_ARRAY(double, k->b.unknown_count), *at = NEW_ARRAY(double, 3 * (size_t)k->b.node_count);
+    double off = 0, *z = NEW_ARRAY(double, k->b.unknown_count),
+           *at = NEW_ARRAY(double, 3 * (size_t)k->b.node_count);
     boundary_project(&k->b, x, z);
     boundary_place(&k->b, z, at);
-    for (int32_t v = 0; v < k->b.node_count; v++) off = fmax(off, vec_distance(x + 3 * (size_t)v, at + 3 * (size_t)v));
+    for (int32_t v = 0; v < k->b.node_count; v++)
+        off = fmax(off, vec_distance(x + 3 * (size_t)v, at + 3 * (size_t)v));
     if (!(off <= 1e-9 * (k->size + fabs(k->c->shift_mm)))) fail(k, "a node is %.2g mm off its bone", off);
     free(z);
     free(at);
@@ -143,7 +82,7 @@ static void check_volumes(check *k)
     int32_t inverted = 0;
     for (int32_t t = 0; t < k->s->mesh.tet_count; t++) {
         double F[9], g[12], volume, J;
-        deformation(k, k->q->xyz, t, F, g, &volume);
+        stress_deformation(&k->s->mesh, k->q->xyz, t, F, g, &volume);
         J = mat_det(F);
         least = fmin(least, J);
         inverted += !(J > 0);
@@ -176,9 +115,10 @@ static double rounding(const check *k, const double *force)
     uint64_t state = 1;
     for (size_t i = 0; i < n; i++) {
         state = state * 6364136223846793005u + 1442695040888963407u;
-        x[i] += DBL_EPSILON * (fabs(x[i]) + 1e-3 * k->size) * ((double)(state >> 11) / 4503599627370496.0 - 1);
+        x[i] +=
+            DBL_EPSILON * (fabs(x[i]) + 1e-3 * k->size) * ((double)(state >> 11) / 4503599627370496.0 - 1);
     }
-    forces(k, x, other);
+    stress_forces(k->s, x, other);
     for (size_t i = 0; i < n; i++) other[i] -= force[i];
     double noise = residual(k, other);
     free(x);
@@ -208,7 +148,8 @@ static void check_pressure(check *k, const double *force)
 static void check_forces(check *k)
 {
     size_t n = 3 * (size_t)k->b.node_count;
-    double *force = NEW_ARRAY(double, n), energy = forces(k, k->q->xyz, force), noise = rounding(k, force);
+    double *force = NEW_ARRAY(double, n), energy = stress_forces(k->s, k->q->xyz, force),
+           noise = rounding(k, force);
     if (k->s->touches) check_pressure(k, force);
     k->r->checked_mn = residual(k, force);
     if (!(k->r->checked_mn <= 1.01 * k->q->tolerance_mn + 16 * noise))
@@ -234,7 +175,7 @@ static bool newton_step(check *k, double *longest, err *e)
     if (ok) {
         assembly_stiffness(&a, k->q->xyz, PROJECTION_NONE);
         assembly_matrix(&a, &k->b);
-        forces(k, k->q->xyz, force);
+        stress_forces(k->s, k->q->xyz, force);
         boundary_reduce(&k->b, force, g);
         ok = linear_factor(l, a.value, 0, &positive, e) && (!positive || linear_solve(l, g, g, e));
     }
@@ -260,9 +201,11 @@ static void check_correction(check *k)
         snprintf(k->r->text, sizeof k->r->text, "solved (not a minimum)");
         return;
     }
-    double allowed = fmax(1e-4, 100 * k->s->params.rel_tol) * k->moved + 1e-9 * (k->size + fabs(k->c->shift_mm));
+    double allowed =
+        fmax(1e-4, 100 * k->s->params.rel_tol) * k->moved + 1e-9 * (k->size + fabs(k->c->shift_mm));
     if (!(k->r->correction_mm <= allowed))
-        fail(k, "one more Newton step goes %.3g mm, at %.3g mm of displacement", k->r->correction_mm, k->moved);
+        fail(k, "one more Newton step goes %.3g mm, at %.3g mm of displacement", k->r->correction_mm,
+             k->moved);
 }
 
 static void check_rigid(check *k)
@@ -273,7 +216,8 @@ static void check_rigid(check *k)
         rigid_apply(&k->s->motion[SEGMENT_MAXILLA], k->s->mesh.xyz + 3 * (size_t)v, at);
         off = fmax(off, vec_distance(at, k->q->xyz + 3 * (size_t)v));
     }
-    if (!(off <= 1e-9 * (k->size + fabs(k->c->shift_mm) + k->moved))) fail(k, "%.3g mm off the rigid motion", off);
+    if (!(off <= 1e-9 * (k->size + fabs(k->c->shift_mm) + k->moved)))
+        fail(k, "%.3g mm off the rigid motion", off);
 }
 
 static void check_scaled(check *k)
@@ -324,7 +268,8 @@ void stress_verify(const stress_case *c, const stress_scene *s, const equilibriu
         k.moved = fmax(k.moved, vec_distance(q->xyz + 3 * (size_t)v, s->mesh.xyz + 3 * (size_t)v));
     r->moved_mm = k.moved;
     if (q->outcome == SOLVED && !r->wrong[0]) {
-        if (q->load_reached < 1 || q->residual_mn > q->tolerance_mn) fail(&k, "its own record contradicts it");
+        if (q->load_reached < 1 || q->residual_mn > q->tolerance_mn)
+            fail(&k, "its own record contradicts it");
         if (take_boundary(&k)) {
             check_places(&k);
             check_volumes(&k);

@@ -61,7 +61,8 @@ double study_slope(const double *h, const double *error, int count)
     return n < 2 ? (double)NAN : (n * xy - x * y) / (n * xx - x * x);
 }
 
-/* Rungs that differ in the mesh alone can be compared with the reference; other models are other questions. */
+/* Rungs that differ in the mesh alone can be compared with the reference; other models are other questions.
+ */
 static bool counts(const study_table *t, int i)
 {
     return t->run[i].result.solved && i != study_reference && study_rungs[i].group != GROUP_MATERIAL &&
@@ -73,7 +74,8 @@ static double slope_of(const study_table *t, bool average)
     double *h = NEW_ARRAY(double, t->count), *d = NEW_ARRAY(double, t->count);
     int n = 0;
     for (int i = 0; i < t->count; i++) {
-        if (!counts(t, i) || study_rungs[i].group > GROUP_ELEMENT || study_rungs[i].average != average) continue;
+        if (!counts(t, i) || study_rungs[i].group > GROUP_ELEMENT || study_rungs[i].average != average)
+            continue;
         h[n] = t->run[i].result.size_mm;
         d[n++] = t->error[i].mean_mm;
     }
@@ -97,7 +99,8 @@ void study_table_make(study_table *t)
                 t->best[i] = false;
     }
     double d[2], step = t->error[study_default].mean_mm;
-    for (int k = 0; k < 2; k++) d[k] = study_compare(&t->run[study_family[k]], &t->run[study_family[2]]).mean_mm;
+    for (int k = 0; k < 2; k++)
+        d[k] = study_compare(&t->run[study_family[k]], &t->run[study_family[2]]).mean_mm;
     t->order = study_order(d);
     t->reference_error_mm = isnan(t->order) ? step : step / (exp2(t->order) - 1);
     t->plain_slope = slope_of(t, false);

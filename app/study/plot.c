@@ -1,4 +1,5 @@
-/* Two pictures: error over time with the front of the best, error over the size of the tets with its slopes. */
+/* Two pictures: error over time with the front of the best, error over the size of the tets with its slopes.
+ */
 #include "app/study/study.h"
 #include "geometry/mem.h"
 #include <math.h>
@@ -8,8 +9,8 @@
 #include <unistd.h>
 
 enum { INK = 1, FAINT = 2, FIRST_SERIES = 3, SERIES = 4, FRONT = 7 };
-static const int shade[][3] = {{255, 255, 255}, {30, 30, 30},   {200, 200, 200}, {31, 119, 180},
-                               {214, 96, 20},   {44, 140, 60},  {130, 90, 170},  {200, 30, 40}};
+static const int shade[][3] = {{255, 255, 255}, {30, 30, 30},  {200, 200, 200}, {31, 119, 180},
+                               {214, 96, 20},   {44, 140, 60}, {130, 90, 170},  {200, 30, 40}};
 static const struct {
     const char *text, *mark;
 } series[SERIES] = {{"meshes, plain tets", "●"},
@@ -23,11 +24,16 @@ static int series_of(const study_table *t, int i)
     const study_rung *r = t->run[i].rung;
     if (!(t->error[i].mean_mm > 0) || r->contact) return -1;
     switch (r->group) {
-    case GROUP_MESH: return 0;
-    case GROUP_ELEMENT: return 1;
-    case GROUP_TOLERANCE: return 2;
-    case GROUP_SCENE: return 3;
-    default: return -1;
+    case GROUP_MESH:
+        return 0;
+    case GROUP_ELEMENT:
+        return 1;
+    case GROUP_TOLERANCE:
+        return 2;
+    case GROUP_SCENE:
+        return 3;
+    default:
+        return -1;
     }
 }
 
@@ -56,7 +62,8 @@ static picture frame_of(const double *x, const double *y, int count)
     return (picture){p.x0 - 0.1 * wide, p.x1 + 0.18 * wide, p.y0 - 0.16 * high, p.y1 + 0.12 * high};
 }
 
-static void begin(const char *device, const char *path, const picture *p, const char *x, const char *y, const char *title)
+static void begin(const char *device, const char *path, const picture *p, const char *x, const char *y,
+                  const char *title)
 {
     plsdev(device);
     plsfnam(path);
@@ -105,7 +112,8 @@ static void legend(const picture *p, const bool used[SERIES], const char *more)
     plptex(x + 0.015 * (p->x1 - p->x0), y, 1, 0, 0, more);
 }
 
-static void mark(const study_table *t, const int *which, const double *x, const double *y, int count, bool names)
+static void mark(const study_table *t, const int *which, const double *x, const double *y, int count,
+                 bool names)
 {
     for (int i = 0; i < count; i++) {
         int s = series_of(t, which[i]);
@@ -148,7 +156,8 @@ static void draw_front(const study_table *t, const int *which, const double *x, 
 
 static void draw_slopes(const study_table *t, const picture *p)
 {
-    double wide = 0.18 * (p->x1 - p->x0), x = p->x0 + 0.08 * (p->x1 - p->x0), y = p->y0 + 0.5 * (p->y1 - p->y0);
+    double wide = 0.18 * (p->x1 - p->x0), x = p->x0 + 0.08 * (p->x1 - p->x0),
+           y = p->y0 + 0.5 * (p->y1 - p->y0);
     plcol0(INK);
     plschr(0, 0.75);
     for (int order = 1; order <= 2; order++) {
@@ -158,8 +167,8 @@ static void draw_slopes(const study_table *t, const picture *p)
         plptex(x + wide, y + order * wide, 1, 0, -0.1, text);
     }
     char text[160];
-    snprintf(text, sizeof text, "slope of the plain tets %.2f, averaged %.2f; order by Richardson %.2f", t->plain_slope,
-             t->average_slope, t->order);
+    snprintf(text, sizeof text, "slope of the plain tets %.2f, averaged %.2f; order by Richardson %.2f",
+             t->plain_slope, t->average_slope, t->order);
     plptex(p->x0 + 0.02 * (p->x1 - p->x0), p->y1 - 0.05 * (p->y1 - p->y0), 1, 0, 0, text);
 }
 
@@ -172,7 +181,8 @@ static void draw_reference(const study_table *t, const picture *p)
     line(p->x0, y, p->x1, y);
     pllsty(1);
     plschr(0, 0.7);
-    plptex(p->x0 + 0.02 * (p->x1 - p->x0), y + 0.02 * (p->y1 - p->y0), 1, 0, 0, "what the reference itself is off, by Richardson");
+    plptex(p->x0 + 0.02 * (p->x1 - p->x0), y + 0.02 * (p->y1 - p->y0), 1, 0, 0,
+           "what the reference itself is off, by Richardson");
 }
 
 static bool draw(const study_table *t, bool over_time, const char *device, const char *path)
@@ -193,11 +203,14 @@ static bool draw(const study_table *t, bool over_time, const char *device, const
         picture p = frame_of(x, y, count);
         char title[FIELD_TEXT_SIZE + FIELD_TEXT_SIZE];
         snprintf(title, sizeof title, "%s: %s", t->task->patient->name, t->plan_name);
-        begin(device, path, &p, over_time ? "wall time of the solve, s" : "mean size of a tet, mm (cube root of its volume)",
+        begin(device, path, &p,
+              over_time ? "wall time of the solve, s" : "mean size of a tet, mm (cube root of its volume)",
               "mean skin error to the reference, mm", title);
         draw_reference(t, &p);
-        if (over_time) draw_front(t, which, x, y, count);
-        else draw_slopes(t, &p);
+        if (over_time)
+            draw_front(t, which, x, y, count);
+        else
+            draw_slopes(t, &p);
         mark(t, which, x, y, count, true);
         legend(&p, used, over_time ? "nothing is faster and nearer" : NULL);
         plend();

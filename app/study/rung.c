@@ -47,9 +47,9 @@ bool study_task_key(study_task *t, err *e)
 
 static void rung_path(const study_task *t, const study_rung *r, char *out, size_t size)
 {
-    snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d.pack", t->folder, t->name, r->coarsening, r->refined,
-             r->average ? "_avg" : "", r->rel_tol, r->model, r->poisson, r->threads, r->contact ? "_contact" : "",
-             r->load_steps);
+    snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d.pack", t->folder, t->name, r->coarsening,
+             r->refined, r->average ? "_avg" : "", r->rel_tol, r->model, r->poisson, r->threads,
+             r->contact ? "_contact" : "", r->load_steps);
 }
 
 static bool take_prepared(const study_task *t, const study_rung *r, prepared *p, double *meshing_s, err *e)
@@ -75,14 +75,18 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
     return true;
 }
 
-static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q, study_result *out, err *e)
+static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q,
+                  study_result *out, err *e)
 {
     region_material m = {.region = REGION_ANY};
     if (!material_make((material_model)r->model, t->patient->material.young_kpa,
                        r->poisson > 0 ? r->poisson : t->patient->material.poisson, &m.material, e))
         return false;
-    equilibrium_problem problem = {.mesh = &p->tissue.mesh, .attach = &p->tissue.attach, .materials = &m,
-                                   .material_count = 1, .average_volume = r->average};
+    equilibrium_problem problem = {.mesh = &p->tissue.mesh,
+                                   .attach = &p->tissue.attach,
+                                   .materials = &m,
+                                   .material_count = 1,
+                                   .average_volume = r->average};
     memcpy(problem.motion, t->motion, sizeof t->motion);
     solve_params params = solve_params_default();
     if (r->rel_tol > 0) params.rel_tol = r->rel_tol;
@@ -226,7 +230,8 @@ bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool
     child_end end = child_run(work, &j, &r, sizeof r, LIMIT_CPU_S, &use);
     *fresh = true;
     if (end == CHILD_INTERRUPTED || app_interrupted())
-        return err_set(e, ERR_INTERRUPTED, "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
+        return err_set(e, ERR_INTERRUPTED,
+                       "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
     if (end != CHILD_DONE) { /* not kept: another time it may come through */
         snprintf(out->result.text, sizeof out->result.text, "%s",
                  end == CHILD_LATE ? "no end in an hour" : "crashed (out of memory?)");

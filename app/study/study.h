@@ -1,13 +1,19 @@
-/* study: error against run time of one case. A rung is one way to compute the same prediction: a mesh, an element, a
- * tolerance, a model, a number of threads, a scene. Each is solved in a child process (its peak of memory is its own) and
- * kept in a journal, DIR/runs: a study that was stopped goes on where it was. */
+/* study: error against run time of one case. A rung is one way to compute the same prediction: a mesh, an
+ * element, a tolerance, a model, a number of threads, a scene. Each is solved in a child process (its peak of
+ * memory is its own) and kept in a journal, DIR/runs: a study that was stopped goes on where it was. */
 #pragma once
 #include "app/carried.h"
 #include "app/command.h"
 #include "sim/newton.h"
 
 typedef enum study_group {
-    GROUP_MESH, GROUP_ELEMENT, GROUP_TOLERANCE, GROUP_MATERIAL, GROUP_THREADS, GROUP_SCENE, GROUP_COUNT
+    GROUP_MESH,
+    GROUP_ELEMENT,
+    GROUP_TOLERANCE,
+    GROUP_MATERIAL,
+    GROUP_THREADS,
+    GROUP_SCENE,
+    GROUP_COUNT
 } study_group;
 
 typedef struct study_rung {
@@ -21,13 +27,13 @@ typedef struct study_rung {
     double poisson;    /* 0: the case's */
     int threads;       /* 0: all cores, or -j */
     bool contact;
-    int load_steps;    /* 0: the plan's */
+    int load_steps; /* 0: the plan's */
 } study_rung;
 
 extern const study_rung study_rungs[];
 extern const int study_rung_count;
-/* The rung whose settings are the case's own; its halved mesh, with which all are compared; one mesh, halved, and halved
- * twice, for the order. */
+/* The rung whose settings are the case's own; its halved mesh, with which all are compared; one mesh, halved,
+ * and halved twice, for the order. */
 extern const int study_default, study_reference, study_family[3];
 
 /* Plain data. */
@@ -39,7 +45,8 @@ typedef struct study_result {
     double size_mm; /* cube root of the mean volume of a tet */
     int iterations, free_iterations, contact_iterations, factorisations, loads;
     double wall_s, cpu_s, peak_mb; /* of the solve; of the process */
-    double prepare_s, assemble_s, factor_s, solve_s; /* wall: ordering; forces and matrices; factors; back substitution */
+    double prepare_s, assemble_s, factor_s,
+        solve_s;      /* wall: ordering; forces and matrices; factors; back substitution */
     double meshing_s; /* wall: bones and tissue, once per mesh; 0: not known */
     double residual_mn, initial_mn, min_j;
     int32_t inverted;
@@ -85,13 +92,14 @@ typedef struct study_error {
 } study_error;
 study_error study_compare(const study_run *a, const study_run *b);
 
-/* The order p of errors C h^p from a mesh, its half and its quarter, where the first two are d[0] and d[1] from the last:
- * d[0] / d[1] = (4^p - 1) / (2^p - 1) = 2^p + 1. NaN: that gives no p above 0.2. */
+/* The order p of errors C h^p from a mesh, its half and its quarter, where the first two are d[0] and d[1]
+ * from the last: d[0] / d[1] = (4^p - 1) / (2^p - 1) = 2^p + 1. NaN: that gives no p above 0.2. */
 double study_order(const double d[2]);
 /* Least squares slope of log error over log size; NaN for fewer than two. */
 double study_slope(const double *h, const double *error, int count);
 
-/* The same solver on a question with an exact answer: a turned tube, 4 to 16 cells through its wall. Plain data. */
+/* The same solver on a question with an exact answer: a turned tube, 4 to 16 cells through its wall. Plain
+ * data. */
 enum { STUDY_TUBES = 12 };
 typedef struct study_tube {
     int cells;
@@ -107,9 +115,9 @@ typedef struct study_table {
     const study_task *task;
     const char *plan_name;
     int count;
-    study_run *run;      /* [count] as study_rungs */
-    study_error *error;  /* [count] to the reference */
-    bool *best;          /* [count] on the Pareto front of the mean error over wall time */
+    study_run *run;                   /* [count] as study_rungs */
+    study_error *error;               /* [count] to the reference */
+    bool *best;                       /* [count] on the Pareto front of the mean error over wall time */
     double order, reference_error_mm; /* Richardson: of the family; of the reference, in the mean */
     double plain_slope, average_slope;
     int32_t cores;

@@ -1,7 +1,7 @@
-/* A question with an exact answer: a thick tube in plane strain, its outer wall held and its inner wall turned. The solver
- * sees a ring of tets between two bones and two planes; the answer comes from the radial equations
- *   d(R P_rr)/dR = P_tt + R P_tr g',   R r P_tr = const.   at  F = [r' 0 0; r g' r/R 0; 0 0 1]
- * for the place r(R) and the turn g(R) of each shell, solved on 1920 shells. */
+/* A question with an exact answer: a thick tube in plane strain, its outer wall held and its inner wall
+ * turned. The solver sees a ring of tets between two bones and two planes; the answer comes from the radial
+ * equations d(R P_rr)/dR = P_tt + R P_tr g',   R r P_tr = const.   at  F = [r' 0 0; r g' r/R 0; 0 0 1] for
+ * the place r(R) and the turn g(R) of each shell, solved on 1920 shells. */
 #include "app/study/study.h"
 #include "app/child.h"
 #include "geometry/mem.h"
@@ -25,7 +25,8 @@ static void shell(const material *m, int i, const double *y, double force[4], do
     material_hessian(m, F, H);
     /* dF (entries rr, tr, tt) by the four unknowns; tr holds the product r g' */
     const double d[3][4] = {{-1 / h, 0, 1 / h, 0}, {g / 2, -r / h, g / 2, r / h}, {0.5 / R, 0, 0.5 / R, 0}};
-    const double cross[16] = {0, -0.5 / h, 0, 0.5 / h, -0.5 / h, 0, -0.5 / h, 0, 0, -0.5 / h, 0, 0.5 / h, 0.5 / h, 0, 0.5 / h, 0};
+    const double cross[16] = {0, -0.5 / h, 0, 0.5 / h, -0.5 / h, 0, -0.5 / h, 0,
+                              0, -0.5 / h, 0, 0.5 / h, 0.5 / h,  0, 0.5 / h,  0};
     static const int at[3] = {0, 3, 4};
     for (int a = 0; a < 4; a++) {
         force[a] = 0;
@@ -82,7 +83,8 @@ static double newton_step(const material *m, double *y, double *D, double *U, do
     for (int i = SHELLS - 1; i > 0; i--) {
         double inverse[4], rhs[2], step[2];
         invert2(D + 4 * i, inverse);
-        for (int a = 0; a < 2; a++) rhs[a] = f[2 * i + a] - U[4 * i + 2 * a] * after[0] - U[4 * i + 2 * a + 1] * after[1];
+        for (int a = 0; a < 2; a++)
+            rhs[a] = f[2 * i + a] - U[4 * i + 2 * a] * after[0] - U[4 * i + 2 * a + 1] * after[1];
         for (int a = 0; a < 2; a++) {
             step[a] = inverse[2 * a] * rhs[0] + inverse[2 * a + 1] * rhs[1];
             largest = fmax(largest, fabs(step[a]));
@@ -137,7 +139,8 @@ static void ring(int n, tetmesh *out, attach_map *hang)
                 for (int t = 0; t < 5; t++, tet += 4) {
                     for (int c = 0; c < 4; c++) {
                         int corner = five[t][c] ^ ((i + j + k) % 2 ? 1 : 0);
-                        tet[c] = ((k + (corner >> 2)) * around + (j + (corner >> 1 & 1)) % around) * (n + 1) + i + (corner & 1);
+                        tet[c] = ((k + (corner >> 2)) * around + (j + (corner >> 1 & 1)) % around) * (n + 1) +
+                                 i + (corner & 1);
                     }
                     const double *x[4];
                     for (int c = 0; c < 4; c++) x[c] = m.xyz + 3 * (size_t)tet[c];
@@ -165,7 +168,8 @@ static double distance(const tetmesh *m, const attach_map *a, const double *xyz,
         if (a->kind[v] == NODE_TIED) continue;
         double R = hypot(X[0], X[1]), at = (R - inner) / (outer - inner) * SHELLS;
         int i = (int)fmin(floor(at), SHELLS - 1);
-        double part = at - i, r = (1 - part) * y[2 * i] + part * y[2 * i + 2], g = (1 - part) * y[2 * i + 1] + part * y[2 * i + 3];
+        double part = at - i, r = (1 - part) * y[2 * i] + part * y[2 * i + 2],
+               g = (1 - part) * y[2 * i + 1] + part * y[2 * i + 3];
         double angle = atan2(X[1], X[0]) + g, want[3] = {r * cos(angle), r * sin(angle), X[2]};
         double off = vec_distance(want, xyz + 3 * (size_t)v);
         sum += off * off;
@@ -184,10 +188,11 @@ static void work(void *context, void *result)
     region_material table = {.region = REGION_ANY};
     double *y = NEW_ARRAY(double, 2 * (SHELLS + 1));
     ring(row.cells, &m, &a);
-    bool ok = material_make(MATERIAL_SNH_LOG, j->task->patient->material.young_kpa, row.poisson, &table.material, &e) &&
+    bool ok = material_make(MATERIAL_SNH_LOG, j->task->patient->material.young_kpa, row.poisson,
+                            &table.material, &e) &&
               exact(&table.material, y);
-    equilibrium_problem problem = {.mesh = &m, .attach = &a, .materials = &table, .material_count = 1,
-                                   .average_volume = row.average};
+    equilibrium_problem problem = {
+        .mesh = &m, .attach = &a, .materials = &table, .material_count = 1, .average_volume = row.average};
     for (int s = 0; s < SEGMENT_COUNT; s++) problem.motion[s] = rigid_identity();
     problem.motion[SEGMENT_MAXILLA] = rigid_rotation((double[3]){0}, (double[]){0, 0, 1}, turn);
     solve_params params = solve_params_default();
@@ -208,11 +213,14 @@ bool study_tubes(const study_task *task, study_tube out[STUDY_TUBES], err *e)
 {
     static const double poisson[2] = {0.45, 0.49};
     for (int i = 0; i < STUDY_TUBES; i++) {
-        study_tube row = {.cells = 4 << i % 3, .average = i / 3 % 2, .poisson = poisson[i / 6], .error_mm = (double)NAN};
+        study_tube row = {
+            .cells = 4 << i % 3, .average = i / 3 % 2, .poisson = poisson[i / 6], .error_mm = (double)NAN};
         job j = {task, &row};
         child_use use;
         if (child_run(work, &j, &row, sizeof row, 600, &use) == CHILD_INTERRUPTED)
-            return err_set(e, ERR_INTERRUPTED, "interrupted; what is done is kept in %s, and the same command goes on", task->folder);
+            return err_set(e, ERR_INTERRUPTED,
+                           "interrupted; what is done is kept in %s, and the same command goes on",
+                           task->folder);
         out[i] = row;
     }
     return true;

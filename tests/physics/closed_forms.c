@@ -1,5 +1,5 @@
-/* Every material against stresses written down a second time, from the principal stretches; a pulled bar; and a thick
- * sphere whose inner wall is pushed outwards, against the radial equation. */
+/* Every material against stresses written down a second time, from the principal stretches; a pulled bar; and
+ * a thick sphere whose inner wall is pushed outwards, against the radial equation. */
 #include "tests/check.h"
 #include "sim/newton.h"
 #include "sim/src/descent.h"
@@ -53,9 +53,12 @@ static double free_stretch(material_model model, double pulled, int sides)
     double low = 0.05, high = 3;
     for (int k = 0; k < 100; k++) {
         double t = (low + high) / 2;
-        double stress = sides == 2 ? principal_stress(model, t, t, pulled) : principal_stress(model, t, pulled, pulled);
-        if (stress > 0) high = t;
-        else low = t;
+        double stress =
+            sides == 2 ? principal_stress(model, t, t, pulled) : principal_stress(model, t, pulled, pulled);
+        if (stress > 0)
+            high = t;
+        else
+            low = t;
     }
     return (low + high) / 2;
 }
@@ -89,7 +92,8 @@ static void simple_shear_is_the_closed_form(void **state)
             P1 = principal_stress((material_model)model, a, 1, 1 / a);
             P2 = principal_stress((material_model)model, 1 / a, a, 1);
             P3 = principal_stress((material_model)model, 1, a, 1 / a);
-            /* F = sum a_i u_i v_i^T: v along (1, a) for a and (-a, 1) for 1/a; u = F v / a_i; P = sum P_i u_i v_i^T */
+            /* F = sum a_i u_i v_i^T: v along (1, a) for a and (-a, 1) for 1/a; u = F v / a_i; P = sum P_i u_i
+             * v_i^T */
             double n = sqrt(1 + a * a), v1[2] = {1 / n, a / n}, v2[2] = {-a / n, 1 / n};
             double u1[2] = {(v1[0] + g * v1[1]) / a, v1[1] / a}, u2[2] = {(v2[0] + g * v2[1]) * a, v2[1] * a};
             material_stress(&m, F, P);
@@ -101,8 +105,8 @@ static void simple_shear_is_the_closed_form(void **state)
     }
 }
 
-/* A bar between two plates on which it slides; one node is held so that it does not drift, another so that it does not
- * turn; neither carries anything. */
+/* A bar between two plates on which it slides; one node is held so that it does not drift, another so that it
+ * does not turn; neither carries anything. */
 static void a_pulled_bar_thins_and_resists_as_the_closed_form_says(void **state)
 {
     (void)state;
@@ -141,8 +145,8 @@ static void a_pulled_bar_thins_and_resists_as_the_closed_form_says(void **state)
         double pull = principal_stress((material_model)model, s, t, t) * 12 * 12;
         assert_near(q.segment_force_mn[SEGMENT_MAXILLA][2] / pull, 1, 1e-7);
         assert_near(q.segment_force_mn[SEGMENT_CRANIUM][1] / pull, 0, 1e-7);
-        print_message("%s pulled by half: thins to %.6f, resists with %.3f mN\n", material_model_name((material_model)model),
-                      t, pull);
+        print_message("%s pulled by half: thins to %.6f, resists with %.3f mN\n",
+                      material_model_name((material_model)model), t, pull);
         equilibrium_free(&q);
         tetmesh_free(&m);
         attach_map_free(&a);
@@ -158,8 +162,11 @@ static double bend(material_model model, double R, double r, double slope)
 {
     const double h = 1e-5;
     double t = r / R, p0 = principal_stress(model, slope, t, t), p1 = principal_stress(model, t, t, slope);
-    double by_slope = (principal_stress(model, slope + h, t, t) - principal_stress(model, slope - h, t, t)) / (2 * h);
-    double by_t = (principal_stress(model, slope, t + h, t + h) - principal_stress(model, slope, t - h, t - h)) / (2 * h);
+    double by_slope =
+        (principal_stress(model, slope + h, t, t) - principal_stress(model, slope - h, t, t)) / (2 * h);
+    double by_t =
+        (principal_stress(model, slope, t + h, t + h) - principal_stress(model, slope, t - h, t - h)) /
+        (2 * h);
     return (-2 * (p0 - p1) / R - by_t * (slope - t) / R) / by_slope;
 }
 
@@ -185,8 +192,10 @@ static double first_slope(material_model model)
     double low = 0.3, high = 1.2; /* the outer wall is reached too early, too late */
     for (int k = 0; k < 60; k++) {
         double slope = (low + high) / 2;
-        if (shoot(model, slope, outer) > outer) high = slope;
-        else low = slope;
+        if (shoot(model, slope, outer) > outer)
+            high = slope;
+        else
+            low = slope;
     }
     return (low + high) / 2;
 }
@@ -279,9 +288,11 @@ static void a_thick_sphere_meets_the_radial_equation(void **state)
     for (int model = 0; model < MATERIAL_MODEL_COUNT; model++) {
         double slope = first_slope((material_model)model);
         assert_near(shoot((material_model)model, slope, outer), outer, 1e-9);
-        double coarse = sphere_error((material_model)model, 2, slope), fine = sphere_error((material_model)model, 4, slope);
-        print_message("%s: off the radial equation by %.4f and, halved, %.4f mm of %.0f mm pushed: order %.2f\n",
-                      material_model_name((material_model)model), coarse, fine, push, log2(coarse / fine));
+        double coarse = sphere_error((material_model)model, 2, slope),
+               fine = sphere_error((material_model)model, 4, slope);
+        print_message(
+            "%s: off the radial equation by %.4f and, halved, %.4f mm of %.0f mm pushed: order %.2f\n",
+            material_model_name((material_model)model), coarse, fine, push, log2(coarse / fine));
         assert_true(fine < 0.05 * push);
         assert_true(log2(coarse / fine) > 1.5);
     }

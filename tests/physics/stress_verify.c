@@ -1,13 +1,27 @@
-/* The judge of the stress suite must itself be able to say no: equilibria that were tampered with are all found out. */
+/* The judge of the stress suite must itself be able to say no: equilibria that were tampered with are all
+ * found out. */
 #include "tests/check.h"
 #include "app/stress/stress.h"
 #include <string.h>
 
-static const stress_case quiet = {.name = "test", .what = "", .body = specimen_block, .cells = {4, 4, 4}, .size = {20, 20, 16},
-                                  .move = {2, 1, 3}, .check = CHECK_UPRIGHT};
+static const stress_case quiet = {.name = "test",
+                                  .what = "",
+                                  .body = specimen_block,
+                                  .cells = {4, 4, 4},
+                                  .size = {20, 20, 16},
+                                  .move = {2, 1, 3},
+                                  .check = CHECK_UPRIGHT};
 
 typedef enum tampering {
-    NOTHING, FREE_NODE, TIED_NODE, NOT_A_NUMBER, ENERGY, VOLUMES, HALF_WAY, LOOSE_TOLERANCE, INSIDE_OUT
+    NOTHING,
+    FREE_NODE,
+    TIED_NODE,
+    NOT_A_NUMBER,
+    ENERGY,
+    VOLUMES,
+    HALF_WAY,
+    LOOSE_TOLERANCE,
+    INSIDE_OUT
 } tampering;
 
 static void judge(tampering how, bool fine)
@@ -23,19 +37,36 @@ static void judge(tampering how, bool fine)
     assert_int_equal(q.outcome, SOLVED);
     int32_t inner = stress_node(quiet.cells, 2, 2, 2);
     switch (how) {
-    case FREE_NODE: q.xyz[3 * inner] += 1e-4; break;
-    case TIED_NODE: q.xyz[0] += 1e-6; break;
-    case NOT_A_NUMBER: q.xyz[3 * inner] = (double)NAN; break;
-    case ENERGY: q.energy_uj *= 1.001; break;
-    case VOLUMES: q.extremes.min_j += 0.01; break;
-    case HALF_WAY: q.load_reached = 0.5; break;
-    case INSIDE_OUT: q.xyz[3 * inner + 2] += 30; break;
-    default: break;
+    case FREE_NODE:
+        q.xyz[3 * inner] += 1e-4;
+        break;
+    case TIED_NODE:
+        q.xyz[0] += 1e-6;
+        break;
+    case NOT_A_NUMBER:
+        q.xyz[3 * inner] = (double)NAN;
+        break;
+    case ENERGY:
+        q.energy_uj *= 1.001;
+        break;
+    case VOLUMES:
+        q.extremes.min_j += 0.01;
+        break;
+    case HALF_WAY:
+        q.load_reached = 0.5;
+        break;
+    case INSIDE_OUT:
+        q.xyz[3 * inner + 2] += 30;
+        break;
+    default:
+        break;
     }
     stress_result r = {0};
     stress_verify(&quiet, &s, &q, &r);
-    if (fine) assert_string_equal(r.wrong, "");
-    else print_message("found out: %s\n", r.wrong);
+    if (fine)
+        assert_string_equal(r.wrong, "");
+    else
+        print_message("found out: %s\n", r.wrong);
     assert_int_equal(r.wrong[0] == 0, fine);
     equilibrium_free(&q);
     stress_scene_free(&s);

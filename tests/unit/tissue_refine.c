@@ -22,9 +22,11 @@ static void each_tet_becomes_eight_of_its_volume(void **state)
     assert_int_equal(fine.mesh.tet_count, 8 * t.mesh.tet_count);
     assert_ok(tetmesh_check(&fine.mesh, &e));
     assert_near(tetmesh_measure(&fine.mesh).volume_mm3, tetmesh_measure(&t.mesh).volume_mm3, 1e-9);
-    for (int32_t i = 0; i < fine.mesh.tet_count; i++) assert_int_equal(fine.mesh.region[i], t.mesh.region[i / 8]);
+    for (int32_t i = 0; i < fine.mesh.tet_count; i++)
+        assert_int_equal(fine.mesh.region[i], t.mesh.region[i / 8]);
     int32_t *face, *fine_face, faces = tetmesh_boundary(&t.mesh, &face, NULL);
-    assert_int_equal(tetmesh_boundary(&fine.mesh, &fine_face, NULL), 4 * faces); /* conforming inside, lips still apart */
+    assert_int_equal(tetmesh_boundary(&fine.mesh, &fine_face, NULL),
+                     4 * faces); /* conforming inside, lips still apart */
     free(face);
     free(fine_face);
     tissue_free(&t);
@@ -41,7 +43,8 @@ static void attachment_and_lips_go_on_between_the_old_nodes(void **state)
         const double *x = fine.mesh.xyz + 3 * (size_t)v;
         bool bottom = x[2] == 0, top = x[2] == 16;
         assert_int_equal(fine.attach.kind[v] == NODE_TIED, bottom || top);
-        if (bottom || top) assert_int_equal(fine.attach.segment[v], bottom ? SEGMENT_DISTAL : SEGMENT_MAXILLA);
+        if (bottom || top)
+            assert_int_equal(fine.attach.segment[v], bottom ? SEGMENT_DISTAL : SEGMENT_MAXILLA);
         if (fine.attach.kind[v] == NODE_SLIDING) {
             assert_near(x[0], 0, 1e-12);
             assert_near(fine.attach.normal[3 * (size_t)v], 1, 1e-12);
@@ -77,7 +80,8 @@ static void points_are_carried_as_before(void **state)
     embedding_refine(&coarse, &t.mesh, &fine.mesh, &refined);
     assert_true(fine.mesh.vertex_count < 4096);
     for (int32_t v = 0; v < 3 * fine.mesh.vertex_count; v++) u[v] = 0;
-    for (int32_t v = 0; v < 3 * t.mesh.vertex_count; v++) u[v] = block_random(&seed); /* piecewise linear on the old tets */
+    for (int32_t v = 0; v < 3 * t.mesh.vertex_count; v++)
+        u[v] = block_random(&seed); /* piecewise linear on the old tets */
     for (int32_t i = 0; i < t.mesh.tet_count; i++)
         for (int k = 0; k < 32; k++) { /* a new node lies midway between two old ones of the parent */
             int32_t v = fine.mesh.tet[32 * (size_t)i + k];
@@ -96,7 +100,8 @@ static void points_are_carried_as_before(void **state)
     int inside = 0;
     for (int i = 0; i < 50; i++) {
         const double *w = coarse.weight + 4 * i;
-        if (coarse.tet[i] < 0 || fmin(fmin(w[0], w[1]), fmin(w[2], w[3])) < 0) continue; /* outside, slopes may differ */
+        if (coarse.tet[i] < 0 || fmin(fmin(w[0], w[1]), fmin(w[2], w[3])) < 0)
+            continue; /* outside, slopes may differ */
         assert_near(vec_distance(before + 3 * i, after + 3 * i), 0, 1e-12);
         inside++;
     }
