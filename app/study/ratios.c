@@ -1,6 +1,6 @@
-/* The moves that the literature reports, and how far soft tissue follows each. Windows: Gupta and Schendel 2022 (Peterson's
- * Principles of Oral and Maxillofacial Surgery, tables 67.1 to 67.10, some thirty primary papers), widened to the spread of
- * the papers and rounded. */
+/* The moves that the literature reports, and how far soft tissue follows each. Windows: Gupta and Schendel
+ * 2022 (Peterson's Principles of Oral and Maxillofacial Surgery, tables 67.1 to 67.10, some thirty primary
+ * papers), widened to the spread of the papers and rounded. */
 #include "app/study/study.h"
 #include "geometry/mem.h"
 #include "geometry/rig.h"
@@ -11,13 +11,25 @@
 #include <string.h>
 
 typedef struct standard_move {
-    const char *name, *file; /* file: no spaces */
+    const char *name, *file;                       /* file: no spaces */
     double maxilla_mm[2], mandible_mm, chin_mm[2]; /* forward and up */
-    double close_deg; /* the jaw turns shut about the condyles: autorotation */
+    double close_deg;                              /* the jaw turns shut about the condyles: autorotation */
 } standard_move;
 
-enum { LF_ADVANCE, LF_IMPACT, LF_SETBACK, MAND_ADVANCE, MAND_SETBACK, AUTOROTATION, CHIN_ADVANCE, CHIN_SETBACK, CHIN_LONGER,
-       CHIN_SHORTER, MMA, MOVE_COUNT };
+enum {
+    LF_ADVANCE,
+    LF_IMPACT,
+    LF_SETBACK,
+    MAND_ADVANCE,
+    MAND_SETBACK,
+    AUTOROTATION,
+    CHIN_ADVANCE,
+    CHIN_SETBACK,
+    CHIN_LONGER,
+    CHIN_SHORTER,
+    MMA,
+    MOVE_COUNT
+};
 static const standard_move moves[MOVE_COUNT] = {
     [LF_ADVANCE] = {"Le Fort I advance 5 mm", "lf_advance", .maxilla_mm = {5, 0}},
     [LF_IMPACT] = {"Le Fort I impaction 4 mm", "lf_impact", .maxilla_mm = {0, 4}},
@@ -75,9 +87,9 @@ static const struct window {
 };
 enum { WINDOWS = sizeof windows / sizeof *windows, MESHES = 3 };
 /* The case's own mesh first; the spread over the three is the error bar. */
-static const study_rung meshes[MESHES] = {{.name = "the case's own", .coarsening = 1},
-                                          {.name = "edges x 1.5", .coarsening = 1.5},
-                                          {.name = "edges x 2, halved", .coarsening = 2, .refined = 1}};
+static const study_rung meshes[MESHES] = {{.name = "the case's own", .coarsening = 1, .load_steps = 1},
+                                          {.name = "edges x 1.5", .coarsening = 1.5, .load_steps = 1},
+                                          {.name = "edges x 2, halved", .coarsening = 2, .refined = 1, .load_steps = 1}};
 
 static bool motion_of(const standard_move *m, const prepared *p, rigid motion[SEGMENT_COUNT], err *e)
 {
@@ -90,7 +102,8 @@ static bool motion_of(const standard_move *m, const prepared *p, rigid motion[SE
     if (m->chin_mm[FORWARD] != 0 || m->chin_mm[UP] != 0) {
         c.move[SEGMENT_CHIN].kind = MOVE_ANGLES;
         vec_scale(p->frame.posterior, -m->chin_mm[FORWARD], c.move[SEGMENT_CHIN].translate_mm);
-        vec_axpy(c.move[SEGMENT_CHIN].translate_mm, m->chin_mm[UP], p->frame.up, c.move[SEGMENT_CHIN].translate_mm);
+        vec_axpy(c.move[SEGMENT_CHIN].translate_mm, m->chin_mm[UP], p->frame.up,
+                 c.move[SEGMENT_CHIN].translate_mm);
     }
     c.jaw.open_deg = -m->close_deg;
     if (left && right) {
@@ -112,7 +125,8 @@ static bool component(const prepared *p, const study_run *r, const char *label, 
 static double ratio_of(const prepared *p, const study_run *r, const struct window *w)
 {
     double soft, hard;
-    if (!component(p, r, w->soft, w->axis, &soft) || !component(p, r, w->hard, w->axis, &hard) || fabs(hard) < 0.5)
+    if (!component(p, r, w->soft, w->axis, &soft) || !component(p, r, w->hard, w->axis, &hard) ||
+        fabs(hard) < 0.5)
         return (double)NAN;
     return soft / hard;
 }
@@ -120,7 +134,8 @@ static double ratio_of(const prepared *p, const study_run *r, const struct windo
 static const char *verdict(const struct window *w, double ratio, double bar)
 {
     if (isnan(ratio)) return "not known";
-    if (ratio >= w->low && ratio <= w->high) return ratio - bar >= w->low && ratio + bar <= w->high ? "inside" : "inside, at the edge";
+    if (ratio >= w->low && ratio <= w->high)
+        return ratio - bar >= w->low && ratio + bar <= w->high ? "inside" : "inside, at the edge";
     double out = ratio < w->low ? w->low - ratio : ratio - w->high;
     return out <= bar ? "OUTSIDE, within the bar" : "OUTSIDE";
 }
@@ -133,12 +148,17 @@ typedef struct ratio_table {
 static void print(const ratio_table *t, const char *name, bool csv, FILE *out)
 {
     int outside = 0, known = 0;
-    if (csv) fprintf(out, "move,soft,hard,direction,ratio,bar,low,high,published,verdict\n");
+    if (csv)
+        fprintf(out, "move,soft,hard,direction,ratio,bar,low,high,published,verdict\n");
     else
-        fprintf(out, "# Soft : hard ratios of %s\n\nThe bar is the largest difference to the ratio on two other meshes, \"%s\" and \"%s\": "
-                     "surface, attachment and tets anew. Windows: published ranges of patients, rounded outwards.\n\n"
-                     "| move | soft : hard | | ratio | bar | window | published | |\n|---|---|---|---|---|---|---|---|\n",
-                name, meshes[1].name, meshes[2].name);
+        fprintf(
+            out,
+            "# Soft : hard ratios of %s\n\nThe bar is the largest difference to the ratio on two other "
+            "meshes, \"%s\" and \"%s\": "
+            "surface, attachment and tets anew. Windows: published ranges of patients, rounded outwards.\n\n"
+            "| move | soft : hard | | ratio | bar | window | published | "
+            "|\n|---|---|---|---|---|---|---|---|\n",
+            name, meshes[1].name, meshes[2].name);
     for (int i = 0; i < WINDOWS; i++) {
         const struct window *w = &windows[i];
         double bar = 0;
@@ -149,14 +169,14 @@ static void print(const ratio_table *t, const char *name, bool csv, FILE *out)
         outside += !strncmp(says, "OUTSIDE", 7);
         const char *direction = w->axis == FORWARD ? "forward" : "up";
         if (csv)
-            fprintf(out, "%s,%s,%s,%s,%.4f,%.4f,%g,%g,%s,\"%s\"\n", moves[w->move].name, w->soft, w->hard, direction, t->ratio[i][0],
-                    bar, w->low, w->high, w->published, says);
+            fprintf(out, "%s,%s,%s,%s,%.4f,%.4f,%g,%g,%s,\"%s\"\n", moves[w->move].name, w->soft, w->hard,
+                    direction, t->ratio[i][0], bar, w->low, w->high, w->published, says);
         else if (isnan(t->ratio[i][0]))
-            fprintf(out, "| %s | %s : %s | %s | | | %g to %g | %s | %s |\n", moves[w->move].name, w->soft, w->hard, direction, w->low,
-                    w->high, w->published, says);
+            fprintf(out, "| %s | %s : %s | %s | | | %g to %g | %s | %s |\n", moves[w->move].name, w->soft,
+                    w->hard, direction, w->low, w->high, w->published, says);
         else
-            fprintf(out, "| %s | %s : %s | %s | %.2f | %.2f | %g to %g | %s | %s |\n", moves[w->move].name, w->soft, w->hard, direction,
-                    t->ratio[i][0], bar, w->low, w->high, w->published, says);
+            fprintf(out, "| %s | %s : %s | %s | %.2f | %.2f | %g to %g | %s | %s |\n", moves[w->move].name,
+                    w->soft, w->hard, direction, t->ratio[i][0], bar, w->low, w->high, w->published, says);
     }
     if (!csv) fprintf(out, "\n%d ratios known, %d outside their window.\n", known, outside);
 }
