@@ -75,6 +75,8 @@ int command_help(int argc, char **argv);
 int command_prepare(int argc, char **argv);
 int command_predict(int argc, char **argv);
 int command_render(int argc, char **argv);
+int command_stress(int argc, char **argv);
+int command_study(int argc, char **argv);
 
 typedef struct verb {
     const char *name, *help;
