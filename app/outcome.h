@@ -2,7 +2,7 @@
 #pragma once
 #include "app/carried.h"
 #include "app/output_dir.h"
-#include "sim/newton.h"
+#include "sim/scene.h"
 
 typedef struct outcome {
     const case_file *patient;
@@ -10,6 +10,7 @@ typedef struct outcome {
     const plan_moves *moves;
     const prepared *prepared;
     const equilibrium *solve;
+    const scene_report *scene;
     const double *u;     /* [3*nodes] displacement of the tissue, mm */
     const surface *skin; /* predicted */
     const carried_landmarks *points;
