@@ -2,6 +2,7 @@
 #include "app/colliders.h"
 #include "app/command.h"
 #include "app/outcome.h"
+#include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #if GNATHOS_WITH_RENDER
@@ -56,6 +57,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     }
 }
 
+
 static double seconds(void)
 {
     struct timespec t;
@@ -82,16 +84,11 @@ static void show_iteration(const newton_record *r, void *context)
     command_progress_at(context, stage, -1);
 }
 
-static bool solve(const case_file *c, const plan_file *plan, const plan_moves *moves, const prepared *p,
+static bool solve(const plan_file *plan, const plan_moves *moves, const prepared *p, const plan_tissue *t,
                   const struct input *in, equilibrium *out, scene_report *scene, err *e)
 {
-    region_material tissue_material = {.region = REGION_ANY};
-    if (!material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson, &tissue_material.material, e))
-        return false;
-    equilibrium_problem problem = {.mesh = &p->tissue.mesh,
-                                   .attach = &p->tissue.attach,
-                                   .materials = &tissue_material,
-                                   .material_count = 1};
+    equilibrium_problem problem = {
+        .mesh = &t->mesh, .attach = &t->attach, .materials = t->material, .material_count = t->material_count};
     for (int s = 0; s < SEGMENT_COUNT; s++) problem.motion[s] = moves->move[s];
     solve_params params = solve_params_default();
     if (plan->load_steps > 0) params.load_steps = plan->load_steps;
@@ -101,7 +98,7 @@ static bool solve(const case_file *c, const plan_file *plan, const plan_moves *m
     scene_params needs = scene_params_default();
     needs.full = in->full;
     colliders touch = {0};
-    if (in->contact && !colliders_make(p, &touch, e)) return false;
+    if (in->contact && !colliders_make(p, &t->attach, &touch, e)) return false;
     if (in->contact) problem.contact = &touch.setup;
     bool ok = scene_solve(&problem, &needs, &params, out, scene, e);
     colliders_free(&touch);
@@ -164,9 +161,14 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e)) return false;
     equilibrium q = {0};
     scene_report scene = {0};
+    plan_tissue flesh = {0};
     double start = seconds();
-    if (!solve(c, &plan, &moves, p, in, &q, &scene, e)) return false;
-    outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .solve = &q, .scene = &scene,
+    if (!plan_tissue_make(c, p, &moves, &flesh, e)) return false;
+    if (!solve(&plan, &moves, p, &flesh, in, &q, &scene, e)) {
+        plan_tissue_free(&flesh);
+        return false;
+    }
+    outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .tissue = &flesh, .solve = &q, .scene = &scene,
                  .prepare_s = prepare_s, .solve_s = seconds() - start};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
@@ -193,6 +195,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     carried_landmarks_free(&points);
     equilibrium_free(&q);
     scene_report_free(&scene);
+    plan_tissue_free(&flesh);
     return ok;
 }
 

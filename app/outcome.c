@@ -180,7 +180,7 @@ static bool write_segments(const outcome *o, const output_dir *dir, err *e)
 
 static bool write_tissue(const outcome *o, const output_dir *dir, err *e)
 {
-    const tissue *t = &o->prepared->tissue;
+    const plan_tissue *t = o->tissue;
     double *kind = NEW_ARRAY(double, t->mesh.vertex_count),
            *segment = NEW_ARRAY(double, t->mesh.vertex_count);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
@@ -264,7 +264,7 @@ void outcome_print(const outcome *o)
     }
     printf("\nAll in mm. Trust: the equilibrium is solved to the residual above; the mesh error is not "
            "estimated yet, and published predictions of this kind are 0.6 to 1.5 mm off on average, most at the lips, "
-           "which here can %s. The nose has no cartilage here: its tip rises too much when the maxilla advances. "
+           "which here can %s. "
            "Not for planning on patients.\n",
            c->on ? "part and meet" : "slide but neither part nor meet");
 }

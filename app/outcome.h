@@ -2,6 +2,7 @@
 #pragma once
 #include "app/carried.h"
 #include "app/output_dir.h"
+#include "app/plan_tissue.h"
 #include "sim/scene.h"
 
 typedef struct outcome {
@@ -9,6 +10,7 @@ typedef struct outcome {
     const plan_file *plan;
     const plan_moves *moves;
     const prepared *prepared;
+    const plan_tissue *tissue;
     const equilibrium *solve;
     const scene_report *scene;
     const double *u;     /* [3*nodes] displacement of the tissue, mm */

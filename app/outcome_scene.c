@@ -23,7 +23,7 @@ static json_t *entry(const char *what, const char *why, json_t *skin_error)
 
 static void list_contact(const outcome *o, json_t *on, json_t *left_out)
 {
-    const attach_map *a = &o->prepared->tissue.attach;
+    const attach_map *a = &o->tissue->attach;
     bool sliding = false;
     for (int32_t v = 0; v < a->node_count; v++) sliding |= a->kind[v] == NODE_SLIDING;
     if (o->solve->contact.on) {
@@ -47,6 +47,32 @@ static void list_contact(const outcome *o, json_t *on, json_t *left_out)
     json_array_append_new(left_out,
                           entry("contact that opens or closes: lips and mucosa can neither part nor meet",
                                 "--contact is off", json_null()));
+}
+
+static void list_plan_tissue(const outcome *o, json_t *on, json_t *left_out)
+{
+    const plan_tissue *t = o->tissue;
+    char text[200];
+    if (t->nose.septum_tets) {
+        const struct material *m = &t->material[1].material;
+        snprintf(text, sizeof text,
+                 "nasal septum as cartilage of %.0f kPa: %d tets, hung on the cranium by %d nodes",
+                 m->young_kpa, t->nose.septum_tets, t->nose.anchors);
+        json_array_append_new(on, json_string(text));
+    } else if (rigid_is_identity(&o->moves->move[SEGMENT_MAXILLA]))
+        json_array_append_new(left_out,
+                              entry("nasal cartilage", "the maxilla stays where it is", json_null()));
+    else
+        json_array_append_new(left_out, entry("nasal cartilage",
+                                              "no septum was found: landmarks N, ANS and Pn, and a nose "
+                                              "that is meshed, are needed",
+                                              json_null()));
+    snprintf(text, sizeof text,
+             "along the cuts of this plan moved bone carries its tissue up to the edge (%d nodes tied), bone "
+             "that stays is "
+             "bared (%d nodes loosened)",
+             t->cuts.tied, t->cuts.loosened);
+    json_array_append_new(on, json_string(text));
 }
 
 static void list_tissue(const outcome *o, json_t *left_out)
@@ -74,6 +100,7 @@ json_t *outcome_scene_json(const outcome *o)
     json_t *on = json_array(), *left_out = json_array();
     json_array_append_new(on, json_string("elastic tissue (Stable Neo-Hookean, linear tetrahedra)"));
     list_contact(o, on, left_out);
+    list_plan_tissue(o, on, left_out);
     json_array_append_new(left_out, entry("expressions and jaw motion", "not built", json_null()));
     list_tissue(o, left_out);
     return json_pack("{so so sb si si sf si sf sf sf}", "on", on, "left_out", left_out, "full", s->full,
