@@ -23,17 +23,17 @@ static double nearest_marked(const double *xyz, int32_t count, const uint8_t *ma
 }
 
 /* The segment of each node of the bone side near the mouth, else -1. */
-static int32_t *label_nodes(const tissue *t, const uint8_t *mouth)
+static int32_t *label_nodes(const tissue *t, const attach_map *a, const uint8_t *mouth)
 {
     int32_t n = t->mesh.vertex_count, *label = NEW_ARRAY(int32_t, n);
     uint8_t *held = NEW_ARRAY(uint8_t, n);
-    for (int32_t v = 0; v < n; v++) held[v] = t->side[v] == SIDE_BONE && t->attach.kind[v] != NODE_FREE;
+    for (int32_t v = 0; v < n; v++) held[v] = t->side[v] == SIDE_BONE && a->kind[v] != NODE_FREE;
     for (int32_t v = 0; v < n; v++) {
         const double *p = t->mesh.xyz + 3 * (size_t)v;
         int32_t at = -1;
         label[v] = -1;
         if (t->side[v] != SIDE_BONE || nearest_marked(t->mesh.xyz, n, mouth, p, &at) > region_mm) continue;
-        if (nearest_marked(t->mesh.xyz, n, held, p, &at) <= label_mm) label[v] = t->attach.segment[at];
+        if (nearest_marked(t->mesh.xyz, n, held, p, &at) <= label_mm) label[v] = a->segment[at];
     }
     free(held);
     return label;
@@ -106,7 +106,7 @@ static void part_lips(int32_t nodes, int32_t *upper, int32_t *upper_count, int32
     free(used);
 }
 
-bool colliders_make(const prepared *p, colliders *out, err *e)
+bool colliders_make(const prepared *p, const attach_map *attach, colliders *out, err *e)
 {
     const tissue *t = &p->tissue;
     int32_t n = t->mesh.vertex_count, *face = NULL, faces = tetmesh_boundary(&t->mesh, &face, NULL);
@@ -114,18 +114,18 @@ bool colliders_make(const prepared *p, colliders *out, err *e)
     double *normal = NEW_ARRAY(double, 3 * (size_t)n);
     bool any = false;
     *out = (colliders){.setup = {.params = contact_params_default()}};
-    for (int32_t i = 0; i < 2 * t->attach.pair_count; i++) {
-        int32_t v = t->attach.pair[i];
+    for (int32_t i = 0; i < 2 * attach->pair_count; i++) {
+        int32_t v = attach->pair[i];
         lip[v] = i % 2 ? LOWER : UPPER;
-        vec_copy(t->attach.pair_normal + 3 * (size_t)(i / 2), normal + 3 * (size_t)v);
+        vec_copy(attach->pair_normal + 3 * (size_t)(i / 2), normal + 3 * (size_t)v);
     }
-    for (int32_t v = 0; v < n; v++) any |= mouth[v] = t->attach.kind[v] == NODE_SLIDING || lip[v];
+    for (int32_t v = 0; v < n; v++) any |= mouth[v] = attach->kind[v] == NODE_SLIDING || lip[v];
     if (any) {
-        int32_t *label = label_nodes(t, mouth);
+        int32_t *label = label_nodes(t, attach, mouth);
         make_bones(t, label, face, faces, out);
         out->extra = NEW_ARRAY(int32_t, n);
         for (int32_t v = 0; v < n; v++)
-            if (label[v] >= 0 && t->attach.kind[v] == NODE_FREE && !lip[v])
+            if (label[v] >= 0 && attach->kind[v] == NODE_FREE && !lip[v])
                 out->extra[out->setup.extra_count++] = v;
         out->setup.extra = out->extra;
         free(label);

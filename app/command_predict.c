@@ -4,6 +4,7 @@
 #include "app/judge_tissue.h"
 #include "app/outcome.h"
 #include "app/plan_audit.h"
+#include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #if GNATHOS_WITH_RENDER
@@ -18,10 +19,10 @@
 struct input {
     command_options common;
     const char *case_path[1], *plan, *out, *cache;
-    bool force, no_pictures, contact;
+    bool force, no_pictures, contact, full;
 };
 
-enum { KEY_CACHE = 300, KEY_NO_PICTURES, KEY_CONTACT };
+enum { KEY_CACHE = 300, KEY_NO_PICTURES, KEY_CONTACT, KEY_FULL };
 
 static const struct argp_option options[] = {
     {"plan", 'p', "FILE", 0, "The plan: bone moves as JSON (gnathos help plan)", 0},
@@ -29,6 +30,7 @@ static const struct argp_option options[] = {
     {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
     {"contact", KEY_CONTACT, "on|off", 0, "Let lips part and mucosa lift off (default: off, always in touch)", 0},
+    {"full", KEY_FULL, NULL, 0, "Solve for all tissue, also where it hardly moves", 0},
     {"cache", KEY_CACHE, "DIR", 0, "Keep what is prepared in DIR instead of CASE/prepared", 0},
     {0}};
 
@@ -45,6 +47,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         in->contact = strcmp(arg, "on") == 0;
         if (!in->contact && strcmp(arg, "off") != 0) argp_error(state, "--contact is on or off, not %s", arg);
         return 0;
+    case KEY_FULL: in->full = true; return 0;
     case KEY_CACHE: in->cache = arg; return 0;
     case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
     case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
@@ -55,6 +58,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     default: return ARGP_ERR_UNKNOWN;
     }
 }
+
 
 static double seconds(void)
 {
@@ -82,26 +86,23 @@ static void show_iteration(const newton_record *r, void *context)
     command_progress_at(context, stage, -1);
 }
 
-static bool solve(const case_file *c, const plan_file *plan, const plan_moves *moves, const prepared *p,
-                  bool contact, command_options *common, equilibrium *out, err *e)
+static bool solve(const plan_file *plan, const plan_moves *moves, const prepared *p, const plan_tissue *t,
+                  const struct input *in, equilibrium *out, scene_report *scene, err *e)
 {
-    region_material tissue_material = {.region = REGION_ANY};
-    if (!material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson, &tissue_material.material, e))
-        return false;
-    equilibrium_problem problem = {.mesh = &p->tissue.mesh,
-                                   .attach = &p->tissue.attach,
-                                   .materials = &tissue_material,
-                                   .material_count = 1};
+    equilibrium_problem problem = {
+        .mesh = &t->mesh, .attach = &t->attach, .materials = t->material, .material_count = t->material_count};
     for (int s = 0; s < SEGMENT_COUNT; s++) problem.motion[s] = moves->move[s];
     solve_params params = solve_params_default();
     if (plan->load_steps > 0) params.load_steps = plan->load_steps;
     params.interrupted = was_interrupted;
     params.progress = show_iteration;
-    params.context = common;
+    params.context = (command_options *)&in->common;
+    scene_params needs = scene_params_default();
+    needs.full = in->full;
     colliders touch = {0};
-    if (contact && !colliders_make(p, &touch, e)) return false;
-    if (contact) problem.contact = &touch.setup;
-    bool ok = equilibrium_solve(&problem, &params, out, e);
+    if (in->contact && !colliders_make(p, &t->attach, &touch, e)) return false;
+    if (in->contact) problem.contact = &touch.setup;
+    bool ok = scene_solve(&problem, &needs, &params, out, scene, e);
     colliders_free(&touch);
     return ok;
 }
@@ -177,10 +178,16 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         !judge_bones_first(in, c, p, &plan, &moves, &limits, e))
         return false;
     equilibrium q = {0};
+    scene_report scene = {0};
+    plan_tissue flesh = {0};
     double start = seconds();
-    if (!solve(c, &plan, &moves, p, in->contact, (command_options *)&in->common, &q, e)) return false;
-    outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .solve = &q, .prepare_s = prepare_s,
-                 .solve_s = seconds() - start, .limits = &limits};
+    if (!plan_tissue_make(c, p, &moves, &flesh, e)) return false;
+    if (!solve(&plan, &moves, p, &flesh, in, &q, &scene, e)) {
+        plan_tissue_free(&flesh);
+        return false;
+    }
+    outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .tissue = &flesh, .solve = &q, .scene = &scene,
+                 .prepare_s = prepare_s, .solve_s = seconds() - start, .limits = &limits};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
     surface skin = {0};
@@ -206,6 +213,8 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     surface_free(&skin);
     carried_landmarks_free(&points);
     equilibrium_free(&q);
+    scene_report_free(&scene);
+    plan_tissue_free(&flesh);
     return ok;
 }
 

@@ -1,6 +1,7 @@
 #include "app/outcome.h"
 #include "app/ceph_report.h"
 #include "app/plan_audit.h"
+#include "app/outcome_scene.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/transform_file.h"
@@ -30,36 +31,6 @@ static json_t *plan_json(const outcome *o)
         json_object_set_new(measure, limit_default[l].name, json_real(o->moves->measure[l]));
     return json_pack("{ss ss so so}", "name", o->plan->name, "override", o->plan->override, "segments",
                      segment, "measures", measure);
-}
-
-/* What is on and what is not, and why. */
-static json_t *scene_json(const outcome *o)
-{
-    const attach_map *a = &o->prepared->tissue.attach;
-    int sliding = 0;
-    for (int32_t v = 0; v < a->node_count; v++) sliding += a->kind[v] == NODE_SLIDING;
-    if (o->solve->contact.on)
-        return json_pack(
-            "{s[sss] s[{ssssso}{ssssso}{ssssso}]}", "on",
-            "elastic tissue (Stable Neo-Hookean, linear tetrahedra)",
-            "mucosa over crowns and alveolar bone touches without friction and may lift off",
-            a->pair_count ? "the lips touch without friction and may part" : "no lip contact", "left_out", "what",
-            "edges, hidden faces and relief of single teeth", "why",
-            "bone is felt through the tissue's own bone side at rest, as coarse as its elements, which ends at the bite",
-            "skin_error_mm", json_null(), "what", "expressions and jaw motion", "why", "not built",
-            "skin_error_mm", json_null(), "what",
-            json_string_value(json_object_get(o->prepared->report, "left_out")), "why",
-            "far from the moving bones", "skin_error_mm", json_null());
-    return json_pack(
-        "{s[sss] s[{ssssso}{ssssso}{ssssso}]}", "on",
-        "elastic tissue (Stable Neo-Hookean, linear tetrahedra)",
-        sliding ? "mucosa slides over crowns and alveolar bone, always in touch" : "no sliding mucosa",
-        a->pair_count ? "the lips slide along each other, always in touch" : "no lip contact", "left_out",
-        "what", "contact that opens or closes: lips and mucosa can neither part nor meet", "why", "--contact is off",
-        "skin_error_mm", json_null(), "what", "expressions and jaw motion", "why", "not built",
-        "skin_error_mm", json_null(), "what",
-        json_string_value(json_object_get(o->prepared->report, "left_out")), "why",
-        "far from the moving bones", "skin_error_mm", json_null());
 }
 
 static json_t *convergence_json(const equilibrium *q)
@@ -160,7 +131,7 @@ json_t *outcome_json(const outcome *o)
         "cpu_system", (double)use.ru_stime.tv_sec + 1e-6 * (double)use.ru_stime.tv_usec);
     json_t *out = json_pack(
         "{si ss ss ss so so s{sf sf} so so so sf so ss}", "gnathos", 1, "version", GNATHOS_VERSION, "case",
-        o->patient->name, "case_hash", o->prepared->hash, "plan", plan_json(o), "scene", scene_json(o),
+        o->patient->name, "case_hash", o->prepared->hash, "plan", plan_json(o), "scene", outcome_scene_json(o),
         "material", "young_kpa", o->patient->material.young_kpa, "poisson", o->patient->material.poisson,
         "solve", solve_json(q), "prepared", json_deep_copy(o->prepared->report), "seconds", seconds,
         "peak_memory_MB", (double)use.ru_maxrss / 1024, "discretisation_error_mm", json_null(),
@@ -210,7 +181,7 @@ static bool write_segments(const outcome *o, const output_dir *dir, err *e)
 
 static bool write_tissue(const outcome *o, const output_dir *dir, err *e)
 {
-    const tissue *t = &o->prepared->tissue;
+    const plan_tissue *t = o->tissue;
     double *kind = NEW_ARRAY(double, t->mesh.vertex_count),
            *segment = NEW_ARRAY(double, t->mesh.vertex_count);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
@@ -266,6 +237,7 @@ void outcome_print(const outcome *o)
            q->extremes.inverted_count, q->extremes.max_stretch);
     printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "",
            o->solve_s);
+    outcome_scene_print(o);
     if (q->extremes.inverted_count > 0) {
         double middle[3], away = worst_tet(o, middle);
         printf("%d tets are turned inside out, the worst at (%.1f, %.1f, %.1f) mm, %.1f mm from the skin: the shape is "
@@ -294,7 +266,7 @@ void outcome_print(const outcome *o)
     }
     printf("\nAll in mm. Trust: the equilibrium is solved to the residual above; the mesh error is not "
            "estimated yet, and published predictions of this kind are 0.6 to 1.5 mm off on average, most at the lips, "
-           "which here can %s. The nose has no cartilage here: its tip rises too much when the maxilla advances. "
+           "which here can %s. "
            "Not for planning on patients.\n",
            c->on ? "part and meet" : "slide but neither part nor meet");
 }

@@ -3,14 +3,17 @@
 #include "app/carried.h"
 #include "app/judge.h"
 #include "app/output_dir.h"
-#include "sim/newton.h"
+#include "app/plan_tissue.h"
+#include "sim/scene.h"
 
 typedef struct outcome {
     const case_file *patient;
     const plan_file *plan;
     const plan_moves *moves;
     const prepared *prepared;
+    const plan_tissue *tissue;
     const equilibrium *solve;
+    const scene_report *scene;
     const double *u;     /* [3*nodes] displacement of the tissue, mm */
     const surface *skin; /* predicted */
     const carried_landmarks *points;

@@ -44,6 +44,8 @@ const study_rung study_rungs[] = {
     {.name = "4 threads", .group = GROUP_THREADS, ONE_LOAD, .coarsening = 1, .threads = 4},
     {.name = "four loads", .group = GROUP_SCENE, .coarsening = 1, .load_steps = 4},
     {.name = "eight loads", .group = GROUP_SCENE, .coarsening = 1, .load_steps = 8},
+    {.name = "left out to 0.05 mm", .group = GROUP_SCENE, .coarsening = 1, ONE_LOAD, .scene_mm = 0.05},
+    {.name = "left out to 0.2 mm", .group = GROUP_SCENE, .coarsening = 1, ONE_LOAD, .scene_mm = 0.2},
     {.name = "contact on", .group = GROUP_SCENE, .coarsening = 1, ONE_LOAD, .contact = true},
 };
 const int study_rung_count = sizeof study_rungs / sizeof *study_rungs;

@@ -10,16 +10,16 @@
 static const char *const group_text[GROUP_COUNT] = {"mesh",     "element", "tolerance",
                                                     "material", "threads", "scene"};
 
-static void print_soonest(const study_table *t, double limit, bool p95, FILE *out)
+static void print_soonest(const study_table *t, double most_mm, bool p95, FILE *out)
 {
-    int i = study_soonest(t, limit, p95);
+    int i = study_soonest(t, most_mm, p95);
     const char *measure = p95 ? "95 % of the moved skin" : "the mean of the moved skin";
     if (i >= 0)
-        fprintf(out, "* %.2f mm for %s, the reference's own error included: **%s**, %.2f s.\n", limit,
+        fprintf(out, "* %.2f mm for %s, the reference's own error included: **%s**, %.2f s.\n", most_mm,
                 measure, t->run[i].rung->name, t->run[i].result.wall_s);
     else
         fprintf(out, "* %.2f mm for %s, the reference's own error included: **no setting reaches it**.\n",
-                limit, measure);
+                most_mm, measure);
 }
 
 static void print_orders(const study_table *t, FILE *out)

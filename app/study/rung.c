@@ -3,10 +3,12 @@
 #include "app/child.h"
 #include "app/colliders.h"
 #include "app/pack_file.h"
+#include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/tissue_refine.h"
 #include "geometry/vec.h"
+#include "sim/scene.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,9 +49,9 @@ bool study_task_key(study_task *t, err *e)
 
 static void rung_path(const study_task *t, const study_rung *r, char *out, size_t size)
 {
-    snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d.pack", t->folder, t->name, r->coarsening,
+    snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d_s%g.pack", t->folder, t->name, r->coarsening,
              r->refined, r->average ? "_avg" : "", r->rel_tol, r->model, r->poisson, r->threads,
-             r->contact ? "_contact" : "", r->load_steps);
+             r->contact ? "_contact" : "", r->load_steps, r->scene_mm);
 }
 
 static bool take_prepared(const study_task *t, const study_rung *r, prepared *p, double *meshing_s, err *e)
@@ -78,28 +80,37 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
 static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q,
                   study_result *out, err *e)
 {
-    region_material m = {.region = REGION_ANY};
-    if (!material_make((material_model)r->model, t->patient->material.young_kpa,
-                       r->poisson > 0 ? r->poisson : t->patient->material.poisson, &m.material, e))
-        return false;
-    equilibrium_problem problem = {.mesh = &p->tissue.mesh,
-                                   .attach = &p->tissue.attach,
-                                   .materials = &m,
-                                   .material_count = 1,
+    plan_moves moves = {0};
+    memcpy(moves.move, t->motion, sizeof moves.move);
+    plan_tissue flesh = {0};
+    if (!plan_tissue_make(t->patient, p, &moves, &flesh, e)) return false;
+    equilibrium_problem problem = {.mesh = &flesh.mesh,
+                                   .attach = &flesh.attach,
+                                   .materials = flesh.material,
+                                   .material_count = flesh.material_count,
                                    .average_volume = r->average};
     memcpy(problem.motion, t->motion, sizeof t->motion);
     solve_params params = solve_params_default();
     if (r->rel_tol > 0) params.rel_tol = r->rel_tol;
     params.load_steps = r->load_steps > 0 ? r->load_steps : t->load_steps;
+    scene_params needs = scene_params_default();
+    needs.full = r->scene_mm <= 0;
+    if (r->scene_mm > 0) needs.tolerance_mm = r->scene_mm;
     if (r->threads > 0) parallel_set_threads(r->threads);
     colliders touch = {0};
-    if (r->contact && !colliders_make(p, &touch, e)) return false;
+    bool ok = material_make((material_model)r->model, t->patient->material.young_kpa,
+                            r->poisson > 0 ? r->poisson : t->patient->material.poisson,
+                            &flesh.material[0].material, e) &&
+              (!r->contact || colliders_make(p, &flesh.attach, &touch, e));
     if (r->contact) problem.contact = &touch.setup;
     double wall = now_s(CLOCK_MONOTONIC), cpu = now_s(CLOCK_PROCESS_CPUTIME_ID);
-    bool ok = equilibrium_solve(&problem, &params, q, e);
+    scene_report left_out = {0};
+    ok = ok && scene_solve(&problem, &needs, &params, q, &left_out, e);
     out->wall_s = now_s(CLOCK_MONOTONIC) - wall;
     out->cpu_s = now_s(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    scene_report_free(&left_out);
     colliders_free(&touch);
+    plan_tissue_free(&flesh);
     return ok;
 }
 

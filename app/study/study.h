@@ -27,7 +27,8 @@ typedef struct study_rung {
     double poisson;    /* 0: the case's */
     int threads;       /* 0: all cores, or -j */
     bool contact;
-    int load_steps; /* 0: the plan's */
+    int load_steps;  /* 0: the plan's */
+    double scene_mm; /* tissue expected to move less is left out, as gnathos predict does; 0: none is */
 } study_rung;
 
 extern const study_rung study_rungs[];

@@ -96,6 +96,22 @@ static inline tetmesh slab_mesh(int nx, int ny, int nz, attach_map *a)
     return m;
 }
 
+/* A flat plate of 240 x 160 x 12 mm on bone, large against its thickness: a patch of 32 x 32 mm in its middle belongs to
+ * the maxilla, with a free ring of 8 mm around it. */
+static inline tetmesh plate_mesh(int nx, int ny, int nz, attach_map *a)
+{
+    block b = {nx, ny, nz, {240, 160, 12}, 6, 0};
+    tetmesh m = block_mesh(&b);
+    *a = attach_map_new(m.vertex_count, 0);
+    for (int32_t v = 0; v < m.vertex_count; v++) {
+        const double *x = m.xyz + 3 * (size_t)v;
+        double off = fmax(fabs(x[0] - 120), fabs(x[1] - 80)) - 16;
+        if (x[2] > 0 || (off > 0 && off <= 8)) continue;
+        tie(a, v, off > 0 ? SEGMENT_CRANIUM : SEGMENT_MAXILLA);
+    }
+    return m;
+}
+
 static inline void rest_motions(rigid motion[SEGMENT_COUNT])
 {
     for (int s = 0; s < SEGMENT_COUNT; s++) motion[s] = rigid_identity();

@@ -1,0 +1,53 @@
+#include "app/plan_tissue.h"
+#include <string.h>
+
+/* Human septal cartilage: 3.0 MPa in tension (Richmon and others 2005, Am J Rhinol 19), 2.7 MPa in
+ * compression (Griffin and others 2016, J Mater Sci Mater Med 27). */
+static const double cartilage_kpa = 3000, cartilage_poisson = 0.3;
+
+static bool make_materials(const case_file *c, plan_tissue *t, err *e)
+{
+    t->material[0].region = REGION_ANY;
+    t->material[1].region = REGION_SEPTUM;
+    t->material_count = t->nose.septum_tets ? 2 : 1;
+    return material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson,
+                         &t->material[0].material, e) &&
+           material_make(MATERIAL_SNH_LOG, cartilage_kpa, cartilage_poisson, &t->material[1].material, e);
+}
+
+static bool add_nose(const prepared *p, const plan_moves *moves, plan_tissue *t, err *e)
+{
+    const rigid *maxilla = &moves->move[SEGMENT_MAXILLA];
+    nose_params params = nose_params_default();
+    bool found = false;
+    if (rigid_is_identity(maxilla)) return true;
+    if (!nose_make(&p->tissue, &p->skin, &p->segments, maxilla, &p->points, &params, &t->nose, &found, e))
+        return false;
+    for (int32_t i = 0; found && i < t->nose.anchors; i++) {
+        t->attach.kind[t->nose.anchor[i]] = NODE_TIED;
+        t->attach.segment[t->nose.anchor[i]] = SEGMENT_CRANIUM;
+    }
+    if (found) t->mesh.region = t->nose.region;
+    return true;
+}
+
+bool plan_tissue_make(const case_file *c, const prepared *p, const plan_moves *moves, plan_tissue *out,
+                      err *e)
+{
+    plan_tissue t = {.mesh = p->tissue.mesh};
+    plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
+    bool ok = plan_attach(&p->tissue, &p->segments, moves->move, &along_cuts, &t.attach, &t.cuts, e) &&
+              add_nose(p, moves, &t, e) && make_materials(c, &t, e);
+    if (ok)
+        *out = t;
+    else
+        plan_tissue_free(&t);
+    return ok;
+}
+
+void plan_tissue_free(plan_tissue *t)
+{
+    attach_map_free(&t->attach);
+    nose_free(&t->nose);
+    *t = (plan_tissue){0};
+}

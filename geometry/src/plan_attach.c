@@ -1,0 +1,130 @@
+#include "geometry/plan_attach.h"
+#include "geometry/mem.h"
+#include "geometry/nearest.h"
+#include "geometry/vec.h"
+#include <stdlib.h>
+#include <string.h>
+
+plan_attach_params plan_attach_params_default(double cut_band_mm)
+{
+    return (plan_attach_params){.cut_mm = cut_band_mm, .bared_mm = 2 * cut_band_mm, .edge_mm = 0.5};
+}
+
+typedef struct field {
+    const tissue *t;
+    const rigid *motion;
+    nearest *part[SEGMENT_COUNT], *kerf;
+} field;
+
+static bool moves_as(const field *f, int a, int b)
+{
+    return a == b || memcmp(&f->motion[a], &f->motion[b], sizeof *f->motion) == 0;
+}
+
+/* Is a the piece that is carried away from b? */
+static bool is_carried(int a, int b)
+{
+    static const int rank[SEGMENT_COUNT] = {[SEGMENT_MAXILLA] = 1, [SEGMENT_DISTAL] = 1, [SEGMENT_CHIN] = 2};
+    return rank[a] > rank[b];
+}
+
+/* The segment a node touches; *other is the nearest one that moves otherwise, -1 if none, at *gap mm. */
+static int touched(const field *f, const double p[3], int *other, double *gap)
+{
+    double to[SEGMENT_COUNT];
+    int best = -1;
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        to[s] = f->part[s] ? nearest_point(f->part[s], p, NULL, NULL) : HUGE_VAL;
+        if (best < 0 || to[s] < to[best]) best = s;
+    }
+    *gap = HUGE_VAL;
+    *other = -1;
+    for (int s = 0; s < SEGMENT_COUNT; s++)
+        if (!moves_as(f, s, best) && to[s] < *gap) {
+            *gap = to[s];
+            *other = s;
+        }
+    return best;
+}
+
+static void loosen(attach_map *a, int32_t v)
+{
+    a->kind[v] = NODE_FREE;
+    a->segment[v] = -1;
+}
+
+static void settle(const field *f, const plan_attach_params *p, int32_t v, attach_map *a,
+                   plan_attach_report *r)
+{
+    const double *x = f->t->mesh.xyz + 3 * (size_t)v;
+    int other;
+    double gap;
+    if (a->kind[v] == NODE_SLIDING) return;
+    double saw = nearest_point(f->kerf, x, NULL, NULL);
+    if (a->kind[v] == NODE_FREE ? saw >= p->cut_mm : saw >= p->bared_mm) return;
+    int segment = touched(f, x, &other, &gap);
+    bool carried = other < 0 || is_carried(segment, other);
+    bool hold = gap > (carried ? p->edge_mm : p->bared_mm);
+    if (hold && a->kind[v] == NODE_FREE) {
+        a->kind[v] = NODE_TIED;
+        a->segment[v] = segment;
+        r->tied++;
+    } else if (!hold && a->kind[v] == NODE_TIED) {
+        loosen(a, v);
+        r->loosened++;
+    }
+}
+
+/* No tet may hang on two bones that part: the one that stays lets go. */
+static void part_bridges(const field *f, attach_map *a, plan_attach_report *r)
+{
+    const tetmesh *m = &f->t->mesh;
+    uint8_t *go = NEW_ARRAY(uint8_t, m->vertex_count);
+    for (int32_t t = 0; t < m->tet_count; t++)
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < i; j++) {
+                int32_t u = m->tet[4 * (size_t)t + (size_t)i], v = m->tet[4 * (size_t)t + (size_t)j];
+                if (a->kind[u] == NODE_FREE || a->kind[v] == NODE_FREE ||
+                    moves_as(f, a->segment[u], a->segment[v]))
+                    continue;
+                if (!is_carried(a->segment[u], a->segment[v]) && a->kind[u] == NODE_TIED) go[u] = 1;
+                if (!is_carried(a->segment[v], a->segment[u]) && a->kind[v] == NODE_TIED) go[v] = 1;
+            }
+    for (int32_t v = 0; v < m->vertex_count; v++) {
+        if (!go[v]) continue;
+        loosen(a, v);
+        r->loosened++;
+    }
+    free(go);
+}
+
+static attach_map copy_of(const attach_map *a)
+{
+    attach_map b = attach_map_new(a->node_count, a->pair_count);
+    memcpy(b.kind, a->kind, (size_t)a->node_count);
+    memcpy(b.segment, a->segment, (size_t)a->node_count * sizeof *b.segment);
+    memcpy(b.normal, a->normal, 3 * (size_t)a->node_count * sizeof *b.normal);
+    memcpy(b.pair, a->pair, 2 * (size_t)a->pair_count * sizeof *b.pair);
+    memcpy(b.pair_normal, a->pair_normal, 3 * (size_t)a->pair_count * sizeof *b.pair_normal);
+    return b;
+}
+
+bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT],
+                 const plan_attach_params *p, attach_map *out, plan_attach_report *report, err *e)
+{
+    field f = {.t = t, .motion = motion};
+    bool ok = true;
+    *report = (plan_attach_report){0};
+    if (bones->kerf.triangle_count) ok = nearest_create(&bones->kerf, &f.kerf, e);
+    for (int s = 0; ok && f.kerf && s < SEGMENT_COUNT; s++)
+        if (bones->part[s].triangle_count) ok = nearest_create(&bones->part[s], &f.part[s], e);
+    if (ok) {
+        *out = copy_of(&t->attach);
+        for (int32_t v = 0; f.kerf && v < t->mesh.vertex_count; v++)
+            if (t->side[v] == SIDE_BONE) settle(&f, p, v, out, report);
+        if (f.kerf) part_bridges(&f, out, report);
+    }
+    nearest_destroy(&f.kerf);
+    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&f.part[s]);
+    return ok;
+}
