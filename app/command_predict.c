@@ -172,6 +172,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
                  .prepare_s = prepare_s, .solve_s = seconds() - start};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
+    bone_depth depth = {0};
     surface skin = {0};
     double *u = NEW_ARRAY(double, 3 * (size_t)q.node_count);
     bool ok = q.outcome != STOPPED_INTERRUPTED || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
@@ -179,7 +180,9 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         for (size_t i = 0; i < 3 * (size_t)q.node_count; i++) u[i] = q.xyz[i] - p->tissue.mesh.xyz[i];
         skin = surface_copy(&p->skin);
         embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, skin.xyz);
-        ok = carry_landmarks(p, &moves, u, &points, e);
+        ok = carry_landmarks(p, &moves, u, &points, e) &&
+             bone_depth_measure(p, &moves, &flesh.attach, q.xyz, &depth, e);
+        o.depth = &depth;
         o.u = u;
         o.skin = &skin;
         o.points = &points;

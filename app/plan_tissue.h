@@ -3,6 +3,7 @@
 #pragma once
 #include "app/plan_moves.h"
 #include "app/prepared.h"
+#include "geometry/lip_rest.h"
 #include "geometry/nose.h"
 #include "geometry/plan_attach.h"
 #include "sim/material.h"
@@ -13,6 +14,7 @@ typedef struct plan_tissue {
     attach_map attach;
     nose nose; /* none where the maxilla stays */
     plan_attach_report cuts;
+    int32_t lip_nodes; /* of the lower lip's lining, that fall back onto the teeth */
     region_material material[2];
     int32_t material_count;
 } plan_tissue;
