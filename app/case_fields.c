@@ -104,14 +104,15 @@ static const field rows[] = {
              "Stiffness; it does not change the shape while only bones move it."),
     MATERIAL(poisson, NULL, FROM(0), TO(0.499),
              "Poisson's ratio; linear tetrahedra stiffen falsely near 0.5."),
-#define X(id, field, low_, high_, source)                                                                    \
-    {.name = "bounds." #field,                                                                               \
-     .kind = FIELD_RANGE,                                                                                    \
-     .offset = offsetof(case_file, bounds[BOUND_##id]),                                                      \
-     FROM(-100),                                                                                             \
-     TO(100),                                                                                                \
-     .help = source "."},
-    BOUNDS(X)
+#define LIMIT(id, field, part, unit_, help_)                                                                  \
+    {                                                                                                        \
+        .name = "limits." #field "." #part, .kind = FIELD_RANGE,                                             \
+        .offset = offsetof(case_file, limits[LIMIT_##id].part), .unit = unit_, FROM(-LIMIT_OPEN),            \
+        TO(LIMIT_OPEN), .help = help_ "."                                                                    \
+    }
+#define X(id, field, unit, f0, f1, s0, s1, what, source)                                                     \
+    LIMIT(id, field, fine, unit, "Fine within: " what), LIMIT(id, field, stop, unit, "Refused outside: " source),
+    LIMITS(X)
 #undef X
 };
 

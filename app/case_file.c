@@ -28,10 +28,7 @@ case_file case_file_default(void)
         .tissue = tissue_params_default(),
         .material = {.young_kpa = 15, .poisson = 0.45},
     };
-    for (int i = 0; i < BOUND_COUNT; i++) {
-        c.bounds[i][0] = bound_default[i].low;
-        c.bounds[i][1] = bound_default[i].high;
-    }
+    for (int i = 0; i < LIMIT_COUNT; i++) c.limits[i] = limit_default[i].range;
     return c;
 }
 
@@ -226,9 +223,9 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues)
         fields_read(case_fields(), &f, f.root, "", c, issues);
         read_osteotomies(&f, c, issues);
         issue_sort_by_line(issues, from);
-        const json_t *bounds = json_object_get(f.root, "bounds");
-        for (int i = 0; i < BOUND_COUNT; i++)
-            c->bound_from_case[i] = json_object_get(bounds, bound_default[i].name) != NULL;
+        const json_t *limits = json_object_get(f.root, "limits");
+        for (int i = 0; i < LIMIT_COUNT; i++)
+            c->limit_from_case[i] = json_object_get(json_object_get(limits, limit_default[i].name), "stop");
         if (!*c->name) name_after_folder(c);
     }
     json_file_free(&f);

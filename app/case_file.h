@@ -1,8 +1,8 @@
 /* case_file: a patient as described by case.json, checked, defaults filled in. Plain data; nothing to free.
  */
 #pragma once
-#include "app/bound.h"
 #include "app/fields.h"
+#include "app/limit.h"
 #include "geometry/mesh_file.h"
 #include "geometry/osteotomy.h"
 #include "geometry/segments.h"
@@ -49,8 +49,8 @@ typedef struct case_file {
     osteotomy_params cuts;
     tissue_params tissue;
     case_material material;
-    double bounds[BOUND_COUNT][2];
-    bool bound_from_case[BOUND_COUNT]; /* false: the default and its source hold */
+    limit_range limits[LIMIT_COUNT];
+    bool limit_from_case[LIMIT_COUNT]; /* false: the default and its source hold */
 } case_file;
 
 case_file case_file_default(void);

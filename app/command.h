@@ -64,6 +64,7 @@ void command_print_json(json_t *object, const char *verb_name);
 /* True after SIGINT: stop at the next safe point, remove what is half done, return ERR_INTERRUPTED. */
 bool app_interrupted(void);
 
+int command_audit(int argc, char **argv);
 int command_ceph(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_compare(int argc, char **argv);
@@ -74,6 +75,8 @@ int command_help(int argc, char **argv);
 int command_prepare(int argc, char **argv);
 int command_predict(int argc, char **argv);
 int command_render(int argc, char **argv);
+int command_stress(int argc, char **argv);
+int command_study(int argc, char **argv);
 
 typedef struct verb {
     const char *name, *help;

@@ -11,7 +11,7 @@ struct input {
     char sex;
 };
 
-static const struct argp_option options[] = {{"sex", 's', "f|m", 0, "Show the norm of women or of men", 0}, {0}};
+static const struct argp_option options[] = {{"sex", 's', "f|m", 0, "Show the norm of women or of men alone", 0}, {0}};
 
 static error_t parse(int key, char *arg, struct argp_state *state)
 {

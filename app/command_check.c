@@ -39,7 +39,7 @@ static const struct argp argp = {options,
                                  "CASE",
                                  "Reads a case (a folder or its case.json) and, with --plan, a plan, and "
                                  "names everything wrong in them: fields, files, "
-                                 "units, meshes, landmarks, bounds. Changes nothing. Errors leave with the "
+                                 "units, meshes, landmarks, limits. Changes nothing. Errors leave with the "
                                  "exit status of the first of them.",
                                  command_common,
                                  NULL,

@@ -13,22 +13,25 @@ struct input {
     command_options common;
     const char *face[2], *landmarks, *actual_landmarks, *out;
     bool force, no_align, no_pictures;
+    double range_mm;
 };
 
-enum { KEY_ACTUAL = 300, KEY_NO_ALIGN, KEY_NO_PICTURES };
+enum { KEY_ACTUAL = 300, KEY_NO_ALIGN, KEY_NO_PICTURES, KEY_RANGE };
 
 static const struct argp_option options[] = {
     {"landmarks", 'l', "FILE", 0, "Landmarks of the predicted face, where it is a mesh", 0},
     {"actual-landmarks", KEY_ACTUAL, "FILE", 0, "Landmarks of the actual face, to compare them too", 0},
     {"no-align", KEY_NO_ALIGN, NULL, 0, "Take both faces as they lie (default: aligned on forehead and nasal bridge)", 0},
-    {"output", 'o', "DIR", 0, "Folder for the tables, the surface with the distances and pictures", 0},
+    {"output", 'o', "DIR", 0, "Folder for the tables, the surface with the distances and the picture", 0},
     {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
-    {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
+    {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the picture out", 0},
+    {"range", KEY_RANGE, "MM", 0, "End of the colour range, to both sides (5: pictures of different faces compare)", 0},
     {0}};
 
 static error_t parse(int key, char *arg, struct argp_state *state)
 {
     struct input *in = state->input;
+    char *end;
     switch (key) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
     case 'l': in->landmarks = arg; return 0;
@@ -37,6 +40,11 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_ACTUAL: in->actual_landmarks = arg; return 0;
     case KEY_NO_ALIGN: in->no_align = true; return 0;
     case KEY_NO_PICTURES: in->no_pictures = true; return 0;
+    case KEY_RANGE:
+        in->range_mm = strtod(arg, &end);
+        if (end == arg || *end || !(in->range_mm > 0) || in->range_mm > 1000)
+            argp_error(state, "--range must lie above 0 and up to 1000 mm, got %s", arg);
+        return 0;
     case ARGP_KEY_ARG: return command_take(arg, in->face, 2, state);
     case ARGP_KEY_END:
         if (!in->face[1]) argp_error(state, "name a predicted and an actual face");
@@ -75,11 +83,11 @@ static bool write_pictures(const struct input *in, const output_dir *dir, const 
 {
 #if GNATHOS_WITH_RENDER
     if (in->no_pictures) return true;
-    char *path[SIGNED_PICTURES];
-    for (int i = 0; i < SIGNED_PICTURES; i++) path[i] = output_dir_file(dir, signed_picture_name[i]);
-    command_progress_at(&in->common, "drawing the pictures", -1);
-    bool ok = signed_pictures_write(c, path, e);
-    for (int i = 0; i < SIGNED_PICTURES; i++) free(path[i]);
+    char *path = output_dir_file(dir, "signed.png"), title[600];
+    snprintf(title, sizeof title, "%s against %s", in->face[1], in->face[0]);
+    command_progress_at(&in->common, "drawing the picture", -1);
+    bool ok = signed_picture_write(c, title, in->range_mm, path, e);
+    free(path);
     return ok;
 #else
     (void)dir, (void)c, (void)e;
@@ -116,7 +124,7 @@ int command_compare(int argc, char **argv)
         "outcome): the signed distance of the surfaces by region. An outcome is also held against two trivial "
         "predictions: no change, and skin that follows the bone below it.",
         command_common, NULL, NULL};
-    struct input in = {0};
+    struct input in = {.range_mm = 5};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};
     face_compare c = {0};

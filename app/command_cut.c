@@ -80,12 +80,12 @@ static bool write_picture(const anatomy *a, const char *title, const output_dir 
                                       .after = rigid_identity(),
                                       .kind = MATERIAL_BONE,
                                       .name = segment_name((segment_id)s)}};
-        comparison_segment_color((segment_id)s, p->part.rgb);
+        subject_segment_color((segment_id)s, p->part.rgb);
         anatomy_apart((segment_id)s, &a->frame, 18, p->apart_mm);
     }
-    comparison_params params = comparison_params_default();
+    gallery_style style = gallery_style_default();
     char *path = output_dir_file(d, "exploded.png");
-    bool ok = anatomy_exploded_write(piece, count, NULL, 0, &a->frame, title, &params, path, e);
+    bool ok = anatomy_exploded_write(piece, count, NULL, 0, &a->frame, title, &style, 1920, 1080, path, e);
     free(path);
     return ok;
 #else

@@ -47,7 +47,7 @@ static void print_overview(void)
         "\ngnathos VERB --help lists the options of a verb; gnathos help case, plan and landmarks\nlist what "
         "goes "
         "into the files.\n\nExit status: 0 done, 1 internal error, 2 usage, 3 an input file is wrong, 4 the "
-        "geometry is\nunusable, 5 no convergence, 6 the plan leaves its bounds, 7 memory, time or disk, 130 "
+        "geometry is\nunusable, 5 no convergence, 6 the plan goes beyond a limit, 7 memory, time or disk, 130 "
         "interrupted.\n");
 }
 

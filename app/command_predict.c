@@ -1,7 +1,9 @@
 /* gnathos predict CASE --plan P -o OUT: the face after a plan. */
 #include "app/colliders.h"
 #include "app/command.h"
+#include "app/judge_tissue.h"
 #include "app/outcome.h"
+#include "app/plan_audit.h"
 #include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
@@ -116,9 +118,10 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
                          .skin_after = o->skin,
                          .at_rest = &o->prepared->segments,
                          .move = o->moves->move,
-                         .points = &o->prepared->points,
+                         .before = &o->prepared->points,
+                         .after = &o->points->after,
                          .frame = &o->prepared->frame};
-    bool ok = mkdir(folder, 0777) == 0 ? pictures_write(&in, folder, false, e)
+    bool ok = mkdir(folder, 0777) == 0 ? pictures_write(&in, folder, e)
                                        : err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made");
     free(folder);
     return ok;
@@ -153,23 +156,38 @@ static bool write_all(const struct input *in, outcome *o, output_dir *dir, err *
     return ok;
 }
 
+/* The limits of bone and teeth come before the solve: a plan that passes one is refused unless it says why. */
+static bool judge_bones_first(const struct input *in, const case_file *c, const prepared *p, const plan_file *plan,
+                              const plan_moves *moves, judgement *out, err *e)
+{
+    judge *j;
+    command_progress_at(&in->common, "judging the plan", 0.45);
+    if (!judge_create(c, p, &j, e)) return false;
+    judge_plan(j, moves, out);
+    judge_free(&j);
+    return judgement_allows(out, c, plan, e);
+}
+
 static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, output_dir *dir,
                     bool *solved, err *e)
 {
     plan_file plan;
     plan_moves moves;
-    if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e)) return false;
+    judgement limits;
+    if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e) ||
+        !judge_bones_first(in, c, p, &plan, &moves, &limits, e))
+        return false;
     equilibrium q = {0};
     scene_report scene = {0};
     plan_tissue flesh = {0};
     double start = seconds();
-    if (!plan_tissue_make(c, p, &moves, &flesh, e)) return false;
+    if (!plan_tissue_make(c, p, moves.move, &flesh, e)) return false;
     if (!solve(&plan, &moves, p, &flesh, in, &q, &scene, e)) {
         plan_tissue_free(&flesh);
         return false;
     }
     outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .tissue = &flesh, .solve = &q, .scene = &scene,
-                 .prepare_s = prepare_s, .solve_s = seconds() - start};
+                 .prepare_s = prepare_s, .solve_s = seconds() - start, .limits = &limits};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
     bone_depth depth = {0};
@@ -187,6 +205,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         o.skin = &skin;
         o.points = &points;
     }
+    judge_tissue(c, p, &q, o.points, &limits);
     ok = ok && write_all(in, &o, dir, e) && output_dir_close(dir, e);
     if (ok && in->common.json) command_print_json(outcome_json(&o), "predict");
     else if (ok) {

@@ -13,6 +13,7 @@ void face_compare_free(face_compare *c)
     }
     landmarks_free(&c->points);
     landmarks_free(&c->actual_points);
+    landmarks_free(&c->rest_points);
     face_map_free(&c->map);
     *c = (face_compare){0};
 }
@@ -32,6 +33,7 @@ static bool load_outcome(const char *folder, face_compare *c, err *e)
     if (ok) {
         c->predictions = PREDICTION_COUNT;
         c->points = landmarks_copy(&r.after);
+        c->rest_points = landmarks_copy(&r.before);
         c->frame = r.frame;
         c->skin[SMOOTHED_BONE] = surface_copy(&c->skin[NO_CHANGE]);
         ok = smoothed_motion(&c->skin[NO_CHANGE], c->map.region, &at_rest, move, c->skin[SMOOTHED_BONE].xyz, e);

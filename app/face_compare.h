@@ -27,6 +27,7 @@ typedef struct face_compare {
     surface skin[PREDICTION_COUNT]; /* NO_CHANGE and SMOOTHED_BONE only for outcomes; the same triangles */
     int predictions;                /* 1, or PREDICTION_COUNT */
     landmarks points, actual_points; /* as predicted; actual, aligned (count 0: none) */
+    landmarks rest_points;           /* before, same order as points (count 0: of a mesh, not known) */
     head_frame frame;
     face_map map;
     bool aligned;

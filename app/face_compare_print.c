@@ -34,10 +34,10 @@ static json_t *rows_json(const distance_stats row[ROW_COUNT])
     return out;
 }
 
-/* Actual minus predicted, in the frame of the head: forward, up, left. */
-static bool landmark_error(const face_compare *c, int32_t i, double out[3])
+/* Actual minus predicted (points, or those before), in the frame of the head: forward, up, left. */
+static bool landmark_error(const face_compare *c, const landmarks *predicted, int32_t i, double out[3])
 {
-    const landmark *p = &c->points.point[i], *q = landmarks_find(&c->actual_points, p->label);
+    const landmark *p = &predicted->point[i], *q = landmarks_find(&c->actual_points, p->label);
     double d[3];
     if (!q) return false;
     vec_sub(q->xyz, p->xyz, d);
@@ -51,10 +51,14 @@ static json_t *landmarks_json(const face_compare *c)
 {
     json_t *list = json_array();
     double d[3];
-    for (int32_t i = 0; i < c->points.count; i++)
-        if (landmark_error(c, i, d))
-            json_array_append_new(list, json_pack("{ss sf s[fff]}", "label", c->points.point[i].label, "error_mm",
-                                                  vec_norm(d), "forward_up_left_mm", d[0], d[1], d[2]));
+    for (int32_t i = 0; i < c->points.count; i++) {
+        if (!landmark_error(c, &c->points, i, d)) continue;
+        json_t *one = json_pack("{ss sf s[fff]}", "label", c->points.point[i].label, "error_mm", vec_norm(d),
+                                "forward_up_left_mm", d[0], d[1], d[2]);
+        if (c->rest_points.count && landmark_error(c, &c->rest_points, i, d))
+            json_object_set_new(one, "no_change_error_mm", json_real(vec_norm(d)));
+        json_array_append_new(list, one);
+    }
     return list;
 }
 
@@ -129,15 +133,22 @@ static bool on_skin(const char *label)
 
 static void print_landmarks(const face_compare *c)
 {
-    double d[3], sum = 0;
+    bool rest = c->rest_points.count > 0;
+    double d[3], unchanged[3] = {0}, sum[2] = {0, 0};
     int count = 0;
     for (int32_t i = 0; i < c->points.count; i++) {
-        if (!on_skin(c->points.point[i].label) || !landmark_error(c, i, d)) continue;
-        if (!count++) printf("\nlandmark     error, mm  forward     up   left\n");
-        printf("%-12s %9.2f %8.2f %6.2f %6.2f\n", c->points.point[i].label, vec_norm(d), d[0], d[1], d[2]);
-        sum += vec_norm(d);
+        if (!on_skin(c->points.point[i].label) || !landmark_error(c, &c->points, i, d)) continue;
+        if (rest && !landmark_error(c, &c->rest_points, i, unchanged)) continue;
+        if (!count++) printf("\nlandmark     error, mm  forward     up   left%s\n", rest ? "  no change" : "");
+        printf("%-12s %9.2f %8.2f %6.2f %6.2f", c->points.point[i].label, vec_norm(d), d[0], d[1], d[2]);
+        if (rest) printf(" %10.2f", vec_norm(unchanged));
+        putchar('\n');
+        sum[0] += vec_norm(d);
+        sum[1] += vec_norm(unchanged);
     }
-    if (count) printf("mean of %d: %.2f mm\n", count, sum / count);
+    if (count) printf("mean of %-3d  %9.2f", count, sum[0] / count);
+    if (count && rest) printf(" %34.2f", sum[1] / count);
+    if (count) putchar('\n');
 }
 
 void face_compare_print(const face_compare *c)

@@ -17,6 +17,11 @@
 #else
 #define WITH_SIM(run) NULL, "cannot run: this build has no solver (GNATHOS_SIM=OFF)"
 #endif
+#if GNATHOS_WITH_SIM
+#define WITH_SOLVER(run) run, NULL
+#else
+#define WITH_SOLVER(run) WITH_SIM(run)
+#endif
 #if GNATHOS_WITH_RENDER
 #define WITH_RENDER(run) run, NULL
 #else
@@ -34,9 +39,9 @@ const verb verbs[] = {
     {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
     {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
     {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
-    {"audit", "run many plans and list which are feasible", NOT_BUILT},
-    {"study", "error against run time of a case", NOT_BUILT},
-    {"stress", "stiff materials and extreme moves", NOT_BUILT},
+    {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(command_audit)},
+    {"study", "error against run time of a case", WITH_SIM(command_study)},
+    {"stress", "stiff materials and extreme moves", WITH_SOLVER(command_stress)},
     {"report", "one page with pictures and tables of an outcome", NOT_BUILT},
     {"serve", "plan in a browser", NOT_BUILT},
     {"cohort", "run many cases", NOT_BUILT},

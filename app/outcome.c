@@ -1,6 +1,7 @@
 #include "app/outcome.h"
 #include "app/ceph_report.h"
 #include "app/outcome_scene.h"
+#include "app/plan_audit.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/transform_file.h"
@@ -26,9 +27,8 @@ static json_t *plan_json(const outcome *o)
         for (int i = 0; i < 16; i++) json_array_append_new(matrix, json_real(m[i]));
         json_object_set_new(segment, segment_name((segment_id)s), json_pack("{so}", "matrix", matrix));
     }
-    for (int b = 0; b < BOUND_COUNT; b++)
-        if (isfinite(o->moves->measure[b]))
-            json_object_set_new(measure, bound_default[b].name, json_real(o->moves->measure[b]));
+    for (int l = 0; l < LIMIT_MOVE_COUNT; l++)
+        json_object_set_new(measure, limit_default[l].name, json_real(o->moves->measure[l]));
     return json_pack("{ss ss so so}", "name", o->plan->name, "override", o->plan->override, "segments",
                      segment, "measures", measure);
 }
@@ -146,6 +146,7 @@ json_t *outcome_json(const outcome *o)
         "peak_memory_MB", (double)use.ru_maxrss / 1024, "discretisation_error_mm", json_null(),
         "discretisation_error_note",
         "not estimated: one mesh was solved; compare runs with other values of tissue.element_mm");
+    json_object_set_new(out, "limits", judgement_json(o->limits, o->patient, o->plan->override));
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
         json_object_set_new(out, "soft_to_hard", ratios_json(o));
@@ -253,6 +254,7 @@ void outcome_print(const outcome *o)
                "not to be trusted near there\n",
                q->extremes.inverted_count, middle[0], middle[1], middle[2], away);
     }
+    judgement_print_brief(o->limits, o->patient);
     const contact_report *c = &q->contact;
     if (c->on)
         printf("contact: %d of %d nodes touch, %.0f mm2 on bone and %.0f mm2 between the lips, deepest %.3f mm, up to "

@@ -2,6 +2,7 @@
 #pragma once
 #include "app/bone_depth.h"
 #include "app/carried.h"
+#include "app/judge.h"
 #include "app/output_dir.h"
 #include "app/plan_tissue.h"
 #include "sim/scene.h"
@@ -18,6 +19,7 @@ typedef struct outcome {
     const surface *skin; /* predicted */
     const carried_landmarks *points;
     const bone_depth *depth;
+    const judgement *limits; /* of bones and tissue */
     double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
 } outcome;
 

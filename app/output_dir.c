@@ -20,7 +20,7 @@ bool output_dir_open(const char *target, bool force, output_dir *out, err *e)
 {
     struct stat info;
     bool folder = !stat(target, &info) && S_ISDIR(info.st_mode);
-    bool earlier = folder && (has(target, "outcome.json") || has(target, "manifest.json"));
+    bool earlier = folder && (has(target, "outcome.json") || has(target, "manifest.json") || has(target, "audit.json"));
     output_dir d = {.replaces = earlier && force};
     if (earlier && !force)
         return err_at(e, ERR_INPUT, target, 0, NULL, "holds earlier results; --force replaces them");

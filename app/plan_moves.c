@@ -51,58 +51,55 @@ static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segm
     return true;
 }
 
-/* Compares one measure with its bound; rounding of rotations and frames is not a breach. */
-static void check_bound(const plan_file *p, const case_file *c, segment_id id, bound_id b, double value,
+/* An issue where a measure lies beyond its stop range. */
+static void check_limit(const plan_file *p, const case_file *c, segment_id id, limit_id l, double value,
                         issue_list *issues)
 {
-    const double rounding = 1e-6;
-    double low = c->bounds[b][0], high = c->bounds[b][1];
-    if (value >= low - rounding && value <= high + rounding) return;
+    const limit_range *r = &c->limits[l];
+    if (limit_judge(r, value) != LIMIT_STOP) return;
     bool excused = *p->override, short_form = p->segment[id].form == FORM_SHORT;
-    const char *name = bound_default[b].name,
-               *source = c->bound_from_case[b] ? "set by the case" : bound_default[b].source;
+    const char *name = limit_default[l].name,
+               *source = c->limit_from_case[l] ? "set by the case" : limit_default[l].source;
     char where[64];
     snprintf(where, sizeof where, "%s%s", short_form ? "" : "segments.",
              short_form ? name : segment_name(id));
     issue_add(issues, excused ? ISSUE_WARNING : ISSUE_ERROR, ERR_INFEASIBLE, p->path, p->segment[id].line,
               where, "%s%sis %.4g, outside %g to %g: %s. %s%s", short_form ? "" : name, short_form ? "" : " ",
-              value, low, high, source,
+              value, r->stop[0], r->stop[1], source,
               excused ? "Accepted because: " : "Move less, or say why in \"override\"",
               excused ? p->override : "");
 }
 
-static void measure(const plan_file *p, const case_file *c, const landmarks *l, const head_frame *f,
-                    const rigid own[SEGMENT_COUNT], double out[BOUND_COUNT], issue_list *issues)
+/* The measures of one segment's own move, from limit *first on; returns how many. */
+static int measure(const plan_file *p, segment_id id, const landmarks *l, const head_frame *f,
+                   const rigid motion[SEGMENT_COUNT], limit_id *first, double out[4])
 {
-    static const bound_id first[SEGMENT_COUNT] = {[SEGMENT_MAXILLA] = BOUND_MAXILLA_ADVANCE,
-                                                  [SEGMENT_DISTAL] = BOUND_MANDIBLE_ADVANCE,
-                                                  [SEGMENT_CHIN] = BOUND_CHIN_ADVANCE};
-    for (int id = SEGMENT_MAXILLA; id < SEGMENT_COUNT; id++) {
-        const double *x = reference(l, (segment_id)id);
-        double d[3], turn_deg = rigid_angle(&own[id]) * 180 / M_PI;
-        if (p->segment[id].form == FORM_NONE || !x) continue;
-        rigid_apply(&own[id], x, d);
-        vec_sub(d, x, d);
-        if (id == SEGMENT_PROXIMAL_LEFT || id == SEGMENT_PROXIMAL_RIGHT) {
-            const double value[2] = {vec_norm(d), turn_deg};
-            for (int i = 0; i < 2; i++) {
-                bound_id b = (bound_id)(BOUND_CONDYLE_SHIFT + i);
-                out[b] = fmax(out[b], value[i]);
-                check_bound(p, c, (segment_id)id, b, value[i], issues);
-            }
-            continue;
-        }
-        const double value[4] = {-vec_dot(d, f->posterior), vec_dot(d, f->up), vec_dot(d, f->left), turn_deg};
-        for (int i = 0; i < 4; i++) {
-            bound_id b = (bound_id)((int)first[id] + i);
-            out[b] = value[i];
-            check_bound(p, c, (segment_id)id, b, value[i], issues);
-        }
+    const double *x = reference(l, id);
+    double d[3];
+    rigid own = motion[id], distal_back = rigid_inverse(&motion[SEGMENT_DISTAL]);
+    if (p->segment[id].form == FORM_NONE || !x) return 0;
+    if (id == SEGMENT_CHIN) own = rigid_compose(&distal_back, &own);
+    rigid_apply(&own, x, d);
+    vec_sub(d, x, d);
+    double turn_deg = rigid_angle(&own) * 180 / M_PI;
+    if (id == SEGMENT_PROXIMAL_LEFT || id == SEGMENT_PROXIMAL_RIGHT) {
+        *first = LIMIT_CONDYLE_SHIFT;
+        out[0] = vec_norm(d);
+        out[1] = turn_deg;
+        return 2;
     }
+    *first = id == SEGMENT_MAXILLA  ? LIMIT_MAXILLA_ADVANCE
+             : id == SEGMENT_DISTAL ? LIMIT_MANDIBLE_ADVANCE
+                                    : LIMIT_CHIN_ADVANCE;
+    out[0] = -vec_dot(d, f->posterior);
+    out[1] = vec_dot(d, f->up);
+    out[2] = vec_dot(d, f->left);
+    out[3] = turn_deg;
+    return 4;
 }
 
-bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
-                     issue_list *issues)
+bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
+                    issue_list *issues)
 {
     plan_moves m = {0};
     rig_controls q = rig_controls_default();
@@ -123,10 +120,32 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
         issue_add(issues, ISSUE_ERROR, e.code, p->path, 0, NULL, "%s", e.text);
         return false;
     }
-    rigid own[SEGMENT_COUNT], distal_back = rigid_inverse(&m.move[SEGMENT_DISTAL]);
-    memcpy(own, m.move, sizeof own);
-    own[SEGMENT_CHIN] = rigid_compose(&distal_back, &m.move[SEGMENT_CHIN]);
-    measure(p, c, l, &f, own, m.measure, issues);
+    for (int id = SEGMENT_MAXILLA; id < SEGMENT_COUNT; id++) {
+        limit_id first;
+        double value[4];
+        int count = measure(p, (segment_id)id, l, &f, m.move, &first, value);
+        for (int i = 0; i < count; i++)
+            if (fabs(value[i]) >= fabs(m.measure[(int)first + i])) m.measure[(int)first + i] = value[i];
+    }
+    *out = m;
+    return true;
+}
+
+bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
+                     issue_list *issues)
+{
+    plan_moves m;
+    head_frame f;
+    err e = {0};
+    int errors = issue_count(issues, ISSUE_ERROR);
+    if (!plan_moves_set(p, c, l, &m, issues) || !head_frame_from_landmarks(l, &f, &e)) return false;
+    for (int id = SEGMENT_MAXILLA; id < SEGMENT_COUNT; id++) {
+        limit_id first;
+        double value[4];
+        int count = measure(p, (segment_id)id, l, &f, m.move, &first, value);
+        for (int i = 0; i < count; i++)
+            check_limit(p, c, (segment_id)id, (limit_id)((int)first + i), value[i], issues);
+    }
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
     *out = m;
     return true;

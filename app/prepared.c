@@ -21,7 +21,7 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool hash_inputs(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
+bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
 {
     content_hash *h = content_hash_start();
     content_hash_number(h, "format", format);
@@ -193,7 +193,7 @@ bool prepared_get(const case_file *c, const char *cache, anatomy_progress *progr
                   prepared *out, err *e)
 {
     char hash[HASH_TEXT_SIZE], folder[FIELD_PATH_SIZE + 16], path[FIELD_PATH_SIZE + 64];
-    if (!hash_inputs(c, hash, e)) return false;
+    if (!prepared_hash(c, hash, e)) return false;
     snprintf(folder, sizeof folder, "%s%s", cache ? cache : c->folder, cache ? "" : "/prepared");
     snprintf(path, sizeof path, "%s/%.16s.pack", folder, hash);
     pack_file f = {0};

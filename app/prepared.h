@@ -21,4 +21,6 @@ typedef struct prepared {
  * it and keeps it. A damaged file is made anew. The caller frees *out. */
 bool prepared_get(const case_file *c, const char *cache, anatomy_progress *progress, void *context,
                   prepared *out, err *e) MUST_CHECK;
+/* The hash of everything it depends on. */
+bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e) MUST_CHECK;
 void prepared_free(prepared *p);

@@ -89,6 +89,12 @@ void cut_report_free(cut_report *r);
 bool osteotomy_cut(const osteotomy_input *in, const osteotomy_params *p, segments *out, cut_report *report,
                    err *e) MUST_CHECK;
 
+enum { CANAL_POINTS_MAX = 64 };
+/* The mandibular canal of one side (+1 left, -1 right) as the sagittal split assumes it where none is given: behind
+ * the lingula, along the body, to the mental foramen; xyz[3*CANAL_POINTS_MAX], LPS mm, from behind. mandible: whole, or
+ * its pieces joined. Returns the number of points; 0 where landmarks are missing or the jaw is not one. */
+int osteotomy_canal(const surface *mandible, const landmarks *points, const osteotomy_params *p, int side, double *xyz);
+
 #ifdef __cplusplus
 }
 #endif

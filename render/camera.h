@@ -33,6 +33,12 @@ typedef struct camera {
 const char *camera_view_name(camera_view view); /* "front", "left", "three_quarter_left", ... */
 /* A standard view onto `target`. The size is set with camera_fit. */
 camera camera_standard(camera_view view, const head_frame *frame, const double target[3]);
+/* From anywhere on a sphere about the target: azimuth 0 is the front and 90 the patient's left, elevation 90
+ * is from above, roll tips the head clockwise in the picture. */
+camera camera_orbit(double azimuth_deg, double elevation_deg, double roll_deg, const head_frame *frame,
+                    const double target[3]);
+/* A standard view as such angles. */
+void camera_view_angles(camera_view view, double *azimuth_deg, double *elevation_deg);
 /* Any view. Refuses (ERR_INPUT) a zero direction and an up vector parallel to it. */
 bool camera_custom(const double toward_viewer[3], const double up[3], const double target[3], camera *out,
                    err *e) MUST_CHECK;

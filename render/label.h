@@ -32,6 +32,7 @@ void pen_text(pen *p, double x, double y, label_align align, double size, bool b
 double pen_text_width(pen *p, double size, bool bold, const char *text);
 void pen_box(pen *p, double x, double y, double width, double height, const double rgb[3], double opacity);
 void pen_line(pen *p, double x0, double y0, double x1, double y1, double width, const double rgb[3]);
+void pen_dot(pen *p, double x, double y, double radius, const double rgb[3]); /* with a white rim */
 /* A circle with a letter in it, e.g. "R". */
 void pen_badge(pen *p, double x, double y, double radius, const double rgb[3], const char *letter);
 
@@ -46,10 +47,10 @@ typedef struct label_map {
     double low, high;
     double fade_end; /* as in layer: from low to here the bar passes from fade_rgb into the map */
     double fade_rgb[3];
-    const char *caption; /* with the unit, e.g. "displacement (mm)" */
+    const char *caption; /* with the unit, e.g. "displacement, mm" */
 } label_map;
 
-/* A vertical bar, high end up, ticks and numbers on its left. */
+/* A horizontal bar with ticks and numbers above. */
 void label_color_bar(pen *p, double x, double y, double width, double height, double size,
                      const label_map *m);
 
@@ -68,6 +69,11 @@ typedef struct label_point {
  * thin line to the point. seen[count] (may be NULL) leaves out the hidden ones; see picture_render. */
 void label_points(pen *p, const image *im, double size, const camera *c, const label_point *points, int count,
                   const uint8_t *seen);
+
+/* Names in one column to the left of all points, each on a thin line to its point; for profiles that look
+ * left. */
+void label_column(pen *p, int width, int height, double size, const camera *c, const label_point *points,
+                  int count);
 
 typedef struct label_entry {
     const char *text;

@@ -30,6 +30,8 @@ typedef struct layer {
     double low, high;
     double fade_end; /* from low to here rgb passes into the map; <= low: the map everywhere */
     double opacity;  /* 1: opaque; below 1 only the front-most sheet of the layer is seen */
+    bool over; /* clear layers: an outline seen through all other layers, not only where it lies in front */
+    const double *weight; /* [vertex_count] 0..1, times the opacity of a clear layer; may be NULL */
     rigid move;
 } layer;
 
@@ -58,21 +60,20 @@ typedef struct picture {
 } picture;
 
 typedef struct picture_style {
-    int width, height; /* pixels */
-    int supersample;   /* 1, 2 or 3 along each side, on top of 4 samples per pixel */
+    int width, height; /* pixels, of 4 samples each */
     double background_top[3], background_bottom[3]; /* sRGB */
     double exposure;                                /* 1: usual */
 } picture_style;
 
-picture_style picture_style_default(void); /* 900 x 1000, 2, light grey-blue, 1 */
+picture_style picture_style_default(void); /* 900 x 1000, light grey-blue, 1 */
 
 /* Precomputes the light of every layer's model with all the given layers in place. The result stays with the
  * models until the next bake; a model never baked is lit without shadows. directions: 32..1024, 96 is usual.
  */
-bool picture_bake(studio *s, const layer *layers, int layer_count, int directions, err *e) MUST_CHECK;
+bool picture_bake(const layer *layers, int layer_count, int directions, err *e) MUST_CHECK;
 
 /* *out is created; the caller frees it. mark_seen[mark_count] (may be NULL) tells which marks are not hidden.
- * Refuses (ERR_USAGE) sizes outside 16..IMAGE_SIZE_MAX/supersample, opacities outside (0, 1], an empty colour
+ * Refuses (ERR_USAGE) sizes outside 16..IMAGE_SIZE_MAX, opacities outside (0, 1], an empty colour
  * range; (ERR_RESOURCE) a frame buffer that cannot be made. */
 bool picture_render(studio *s, const picture *p, const picture_style *style, image *out, uint8_t *mark_seen,
                     err *e) MUST_CHECK;

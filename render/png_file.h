@@ -5,7 +5,7 @@
 extern "C" {
 #endif
 
-typedef struct png_note { /* a tEXt chunk: Latin-1, keyword of 1 to 79 characters */
+typedef struct png_note { /* a tEXt chunk, or iTXt where the value is not ASCII; UTF-8, keyword of 1 to 79 characters */
     const char *key, *value;
 } png_note;
 
@@ -16,7 +16,7 @@ bool png_file_write(const image *im, const png_note *texts, int text_count, cons
                     err *e) MUST_CHECK;
 /* *out is created; the caller frees it. Refuses (ERR_INPUT) what is not a whole PNG file. */
 bool png_file_read(const char *path, image *out, err *e) MUST_CHECK;
-/* The value of a tEXt chunk, newly allocated; NULL in *value if there is none. */
+/* The value of such a chunk, newly allocated; NULL in *value if there is none. */
 bool png_file_note(const char *path, const char *key, char **value, err *e) MUST_CHECK;
 
 #ifdef __cplusplus

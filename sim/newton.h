@@ -44,7 +44,8 @@ typedef struct newton_record {
     double tolerance_mn, energy_uj;
     double step; /* fraction of the direction taken */
     hessian_kind hessian;
-    double factor_s; /* wall time of factorising for this step */
+    int cg_iterations; /* of conjugate gradients for this step; 0: a factor */
+    double factor_s;   /* wall time of making the matrix ready for this step */
     double min_j;
     int32_t inverted_count;
     bool contact; /* counted; false: without contact, or phase A */
@@ -54,6 +55,14 @@ typedef enum predictor {
     PREDICT_RIGID,  /* free nodes follow the guide of `boundary` */
     PREDICT_ELASTIC /* and the linear response to what the guide leaves */
 } predictor;
+
+/* How the linear systems of the steps are solved. */
+typedef enum linear_kind {
+    LINEAR_AUTO,     /* by size */
+    LINEAR_FACTOR,   /* Cholesky factors; time n^2, memory n^1.4 */
+    LINEAR_GRADIENTS /* conjugate gradients preconditioned by multigrid, time and memory in proportion to n;
+                        factors where they fail */
+} linear_kind;
 
 typedef struct solve_params {
     int load_steps;     /* >= 1 */
@@ -65,6 +74,7 @@ typedef struct solve_params {
     double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
     enum projection projection;         /* CLAMP or ABS */
+    enum linear_kind linear;
     bool reuse_factor;                  /* false: factorise in each iteration */
     int blas_threads;                   /* 1: the same bits whatever the machine is doing; see linear.h */
     bool (*interrupted)(void *context); /* NULL or asked in each iteration */
@@ -92,7 +102,7 @@ typedef struct equilibrium {
     double *xyz; /* [3*node_count] mm; of the last iterate where not SOLVED */
     int32_t record_count;
     newton_record *record; /* [record_count] every iteration of every load, failed ones too */
-    int iterations, factorisations, loads, halvings;
+    int iterations, factorisations, cg_iterations, preconditioners, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
     contact_report contact;                    /* its energy is in energy_uj */

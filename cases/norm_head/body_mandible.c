@@ -80,7 +80,7 @@ double body_mandible(const bodies *b, const double point[3])
         vec_normalize(axis);
         vec_axpy(q->tip, q->crown_mm + 3.0, axis, neck);
         vec_axpy(neck, q->root_mm - 3, axis, apex);
-        d = sdf_union(d, sdf_cone(p, neck, fmin(0.48 * q->depth_mm, 4.2), apex, 1.9), 3);
+        d = sdf_union(d, sdf_cone(p, neck, sdf_min(0.48 * q->depth_mm, 4.2), apex, 1.9), 3);
     }
     static const double lingula_a[3] = {39.8, -24, -35}, lingula_b[3] = {40.6, -23.5, -32.5};
     d = sdf_union(d, sdf_cone(p, lingula_a, 1.4, lingula_b, 0.9), 1.5);

@@ -74,15 +74,15 @@ static double skin_size(const double p[3])
     double eyes = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 31, -84, 14, 20, 12, 13);
     double ears = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 76, 8, 2, 10, 22, 36);
     double brows = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 30, -88, 35, 22, 10, 6);
-    double fine = fmin(fmin(mouth, nose), fmin(fmin(eyes, brows + 4), ears + 3));
-    double face = fmax(p[1] + 40, 0) * 0.03;
+    double fine = sdf_min(sdf_min(mouth, nose), sdf_min(sdf_min(eyes, brows + 4), ears + 3));
+    double face = sdf_max(p[1] + 40, 0) * 0.03;
     /* the lips have the smallest relief */
-    return sdf_clamp(1.3 + 0.08 * fmax(fine, 0) + face, 1.3, 4.5) - 0.3 * sdf_step(4, -2, mouth);
+    return sdf_clamp(1.3 + 0.08 * sdf_max(fine, 0) + face, 1.3, 4.5) - 0.3 * sdf_step(4, -2, mouth);
 }
 
 static double bone_size(const double p[3])
 {
-    double back = fmax(p[1] + 45, 0), top = fmax(p[2] - 42, 0);
+    double back = sdf_max(p[1] + 45, 0), top = sdf_max(p[2] - 42, 0);
     return sdf_clamp(1.7 + 0.04 * back + 0.05 * top, 1.7, 4.5);
 }
 

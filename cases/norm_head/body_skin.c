@@ -289,12 +289,12 @@ double skin_lip_line(double x)
 }
 double skin_lip_top(double x)
 {
-    double arch = fmax(1 - (x / 25) * (x / 25), 0);
+    double arch = sdf_max(1 - (x / 25) * (x / 25), 0);
     return skin_lip_line(x) + 7.6 * pow(arch, 0.8) - 1.2 * exp(-x * x / 7);
 }
 double skin_lip_bottom(double x)
 {
-    double arch = fmax(1 - (x / 25) * (x / 25), 0);
+    double arch = sdf_max(1 - (x / 25) * (x / 25), 0);
     return skin_lip_line(x) - 8.6 * pow(arch, 0.75);
 }
 

@@ -125,7 +125,7 @@ static double orbit(const double p[3], double grow)
     u += 0.08 * v; /* the roof leans out, the floor in */
     double q = pow(pow(fabs(u) / a, 3) + pow(fabs(v) / b, 3), 1 / 3.0);
     double section = (q - 1) * b * 0.92;
-    return fmax(section, t - length - grow);
+    return sdf_max(section, t - length - grow);
 }
 
 static double nasal_cavity(const double p[3])
@@ -138,8 +138,8 @@ static double nasal_cavity(const double p[3])
     /* septum and lower turbinates stay */
     static const double septum[][2] = {{-84, -30}, {-80, -14}, {-83, 2}, {-88, 14}, {-30, 14}, {-36, -30}};
     double bone =
-        fmax(fabs(p[0] + 0.6 * sin(p[2] * 0.12)) - 0.9, sdf_polygon(p[1], p[2], septum, COUNT(septum)));
-    bone = fmin(bone, sdf_ellipsoid(p, 10, -62, -13, 3.4, 15, 3.6));
+        sdf_max(fabs(p[0] + 0.6 * sin(p[2] * 0.12)) - 0.9, sdf_polygon(p[1], p[2], septum, COUNT(septum)));
+    bone = sdf_min(bone, sdf_ellipsoid(p, 10, -62, -13, 3.4, 15, 3.6));
     return sdf_cut(d, bone, 1.2);
 }
 
@@ -157,7 +157,7 @@ static double roots(const double p[3], double d)
         vec_axpy(neck, t->root_mm, axis, apex);
         vec_add(neck, out, neck);
         vec_add(apex, out, apex);
-        d = sdf_union(d, sdf_cone(p, neck, fmin(0.46 * t->depth_mm, 3.8), apex, 2.2), 2.6);
+        d = sdf_union(d, sdf_cone(p, neck, sdf_min(0.46 * t->depth_mm, 3.8), apex, 2.2), 2.6);
     }
     return d;
 }
@@ -170,8 +170,8 @@ double body_skull(const bodies *b, const double point[3])
     if (d > 90) return d - 60;
     bool face = p[1] < -12 && p[2] < 75;
     if (face) {
-        double shell = fmax(orbit(p, 3.2), p[1] - (-30));
-        shell = fmax(shell, -(p[1] - (-70 + 0.42 * (p[0] - 30))));
+        double shell = sdf_max(orbit(p, 3.2), p[1] - (-30));
+        shell = sdf_max(shell, -(p[1] - (-70 + 0.42 * (p[0] - 30))));
         d = sdf_union(d, shell, 5);
         d = sdf_union(d, sdf_ellipsoid(p, 0, -58, 13, 11, 26, 17), 5);
         d = tube_union(d, &t[BROW], p, 7);

@@ -1,4 +1,5 @@
 #include "norm_head.h"
+#include "bite.h"
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
 #include "fit.h"
@@ -225,6 +226,10 @@ static bool shape(const norm_head_params *p, const place *list, int count, const
     fields f = make_fields(p, list, count, sites, h->asked, lowered);
     warp_by(&f.up, &h->skull, &h->upper_teeth, list, count, ON_SKULL, ON_UPPER_TEETH, &h->points);
     warp_by(&f.down, &h->mandible, &h->lower_teeth, list, count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
+    if (!bite_settle(&h->upper_teeth, &h->lower_teeth, list, count, &h->points, e)) {
+        free_fields(&f);
+        return false;
+    }
     warp skin = warp_through(&f.skin);
     warp_by(&skin, &h->skin, NULL, list, count, ON_SKIN, ON_SKIN, &h->points);
     warp_free(&skin);

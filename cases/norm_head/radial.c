@@ -2,6 +2,7 @@
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include "dense.h"
+#include "sdf.h"
 #include <stdlib.h>
 
 radial radial_through(const double centre[3], const double (*point)[3], int count)
@@ -52,7 +53,7 @@ double radial_distance(const radial *r, const double p[3])
     vec_copy(tail + 1, gradient);
     for (int i = 0; i < r->count; i++) {
         const double *v = r->direction + 3 * i;
-        double d2 = fmax(2 - 2 * vec_dot(u, v), 0), d = sqrt(d2);
+        double d2 = sdf_max(2 - 2 * vec_dot(u, v), 0), d = sqrt(d2);
         value += w[i] * d2 * d;
         vec_axpy(gradient, -3 * w[i] * d, v, gradient);
     }

@@ -6,7 +6,7 @@ double sdf_ellipsoid(const double p[3], double x, double y, double z, double a, 
     double u[3] = {(p[0] - x) / a, (p[1] - y) / b, (p[2] - z) / c};
     double g[3] = {u[0] / a, u[1] / b, u[2] / c};
     double k0 = vec_norm(u), k1 = vec_norm(g);
-    if (k1 < 1e-9) return -fmin(a, fmin(b, c));
+    if (k1 < 1e-9) return -sdf_min(a, sdf_min(b, c));
     return k0 * (k0 - 1) / k1;
 }
 
@@ -48,7 +48,7 @@ double sdf_chain(const double p[3], const double (*points)[4], int count)
     double best = HUGE_VAL;
     for (int i = 0; i + 1 < count; i++) {
         double d = sdf_cone(p, points[i], points[i][3], points[i + 1], points[i + 1][3]);
-        best = i == 0 ? d : sdf_union(best, d, 0.8 * fmin(points[i][3], points[i + 1][3]) + 1e-3);
+        best = i == 0 ? d : sdf_union(best, d, 0.8 * sdf_min(points[i][3], points[i + 1][3]) + 1e-3);
     }
     return best;
 }
@@ -85,7 +85,7 @@ double sdf_polygon(double u, double v, const double (*corners)[2], int count)
         double wu = u - corners[i][0], wv = v - corners[i][1];
         double t = sdf_clamp((wu * eu + wv * ev) / (eu * eu + ev * ev), 0, 1);
         double du = wu - t * eu, dv = wv - t * ev;
-        best = fmin(best, du * du + dv * dv);
+        best = sdf_min(best, du * du + dv * dv);
         if ((corners[i][1] > v) != (corners[j][1] > v) && wu < eu * wv / ev) inside = !inside;
     }
     return inside ? -sqrt(best) : sqrt(best);
@@ -95,7 +95,7 @@ void sdf_spline(const double *points, int width, int count, double s, double *ou
 {
     assert(count >= 2);
     s = sdf_clamp(s, 0, count - 1);
-    int i = (int)fmin(floor(s), count - 2);
+    int i = (int)sdf_min(floor(s), count - 2);
     double t = s - i;
     const double *b = points + width * i, *c = b + width;
     for (int k = 0; k < width; k++) {

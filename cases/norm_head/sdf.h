@@ -3,11 +3,21 @@
 #pragma once
 #include "geometry/vec.h"
 
+/* fmin and fmax of numbers, in one instruction each. */
+static inline double sdf_min(double a, double b)
+{
+    return a < b ? a : b;
+}
+static inline double sdf_max(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* Union, intersection and difference with a fillet of about `k` mm (polynomial blend; k > 0). */
 static inline double sdf_union(double a, double b, double k)
 {
-    double h = fmax(k - fabs(a - b), 0) / k;
-    return fmin(a, b) - 0.25 * h * h * k;
+    double h = sdf_max(k - fabs(a - b), 0) / k;
+    return sdf_min(a, b) - 0.25 * h * h * k;
 }
 static inline double sdf_cut(double a, double b, double k)
 {
@@ -20,7 +30,7 @@ static inline double sdf_meet(double a, double b, double k)
 
 static inline double sdf_clamp(double x, double low, double high)
 {
-    return fmin(fmax(x, low), high);
+    return sdf_min(sdf_max(x, low), high);
 }
 static inline double sdf_mix(double a, double b, double t)
 {

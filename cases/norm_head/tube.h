@@ -9,7 +9,9 @@ typedef struct tube {
     int count;
     double (*ball)[4];       /* [count] x, y, z, radius along the curve */
     double centre[3], reach; /* ball that contains the tube */
-    double across[3], flat;  /* the section is `flat` times wider along the unit vector across */
+    double (
+        *stretch)[4]; /* [(count-1)/TUBE_STEPS] centre and radius of the ball around each TUBE_STEPS pieces */
+    double across[3], flat; /* the section is `flat` times wider along the unit vector across */
 } tube;
 
 /* Catmull-Rom through control points of x, y, z, radius. Round. */

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CANAL_POINTS = 64, STATIONS = 6, HEIGHTS = 7, TERMS = 5, NODES = STATIONS + 4, LEVELS = HEIGHTS + 1 };
+enum { CANAL_POINTS = CANAL_POINTS_MAX, STATIONS = 6, HEIGHTS = 7, TERMS = 5, NODES = STATIONS + 4, LEVELS = HEIGHTS + 1 };
 static const double third_molar_mm = 23; /* L6 to L7 beyond this: L7 is the third molar */
 static const double behind_m2_mm = 1;
 static const double posterior_strip_mm = 4; /* bone kept behind the lingual cut at the top */
@@ -450,6 +450,32 @@ static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, c
     }
     *out = b;
     return true;
+}
+
+int osteotomy_canal(const surface *mandible, const landmarks *points, const osteotomy_params *p, int side, double *xyz)
+{
+    const osteotomy_input in = {.mandible = mandible, .points = points};
+    jaw_side j = {.in = &in, .side = side};
+    cut_report ignored = {0};
+    err e = {0};
+    nearest *tree = NULL;
+    char label[LANDMARK_LABEL_SIZE];
+    static const char *const base[] = {"L6", "L7", "Go", "SN", "RA", "RP"};
+    for (int k = 0; k < 6; k++)
+        if (!landmarks_find(points, side_label(label, base[k], side))) return 0;
+    if (!nearest_create(mandible, &tree, &e)) return 0;
+    j.tree = tree;
+    if (jaw_frame(points, &j.frame, &e)) {
+        j.lower = outline_make(mandible, &j.frame, side, 1, 2, -1);
+        j.posterior = outline_make(mandible, &j.frame, side, 2, 1, 1);
+        if (locate(&j, p, &ignored, &e)) find_canal(&j, &ignored);
+        outline_free(&j.lower);
+        outline_free(&j.posterior);
+    }
+    for (int i = 0; i < j.canal_count; i++) to_world(&j, j.canal[i], xyz + 3 * (size_t)i);
+    cut_report_free(&ignored);
+    nearest_destroy(&tree);
+    return j.canal_count;
 }
 
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,

@@ -75,7 +75,8 @@ typedef struct plate {
     const char *caption[2];
     const head_frame *frame;
     const char *text;
-    const comparison_params *params;
+    const gallery_style *style;
+    int width, height; /* of the sheet */
     const stroke *cuts;
     const mark *marks;
     const label_point *points;
@@ -83,12 +84,22 @@ typedef struct plate {
     int cut_count, point_count, entry_count;
 } plate;
 
+static compose_params sheet_params(const plate *p)
+{
+    compose_params c = compose_params_default();
+    c.font_size = fmax(9, p->height / 52.0);
+    c.title = p->text;
+    c.fonts = p->style->fonts;
+    c.sheet_width = p->width;
+    c.sheet_height = p->height;
+    return c;
+}
+
 static bool plate_tile(const stage *g, const plate *p, int side, image *out, err *e)
 {
     picture_style style = picture_style_default();
-    style.width = p->params->tile_width;
-    style.height = p->params->tile_height;
-    style.supersample = p->params->supersample;
+    compose_params whole = sheet_params(p);
+    compose_tile_size(2, &whole, &style.width, &style.height);
     camera c = camera_standard(p->view[side], p->frame, p->frame->origin);
     camera_fit_surfaces(&c, g->fitted, g->count, style.width, style.height, p->point_count ? 0.13 : 0.09);
     uint8_t *seen = NEW_ARRAY(uint8_t, p->point_count);
@@ -109,8 +120,7 @@ static bool plate_tile(const stage *g, const plate *p, int side, image *out, err
                    .view = c};
     image im = {0};
     pen *marker = NULL;
-    bool ok =
-        picture_render(g->s, &pic, &style, &im, NULL, e) && pen_open(&im, &p->params->fonts, &marker, e);
+    bool ok = picture_render(g->s, &pic, &style, &im, NULL, e) && pen_open(&im, &p->style->fonts, &marker, e);
     if (ok) {
         double size = fmax(9, im.height / 45.0), scale = camera_scale(&c, im.height), widest = 0;
         label_sides(marker, 0, 0, im.width, im.height, size, &c, p->frame);
@@ -134,25 +144,22 @@ static bool plate_tile(const stage *g, const plate *p, int side, image *out, err
 
 static bool plate_write(const stage *g, const plate *p, const char *path, err *e)
 {
-    image tile[2] = {{0}, {0}}, sheet = {0};
-    compose_params params = compose_params_default();
-    params.font_size = fmax(10, p->params->tile_height / 42.0);
-    params.title = p->text;
-    params.fonts = p->params->fonts;
+    image tile[2] = {{0}, {0}}, whole = {0};
+    compose_params params = sheet_params(p);
     bool ok = plate_tile(g, p, 0, &tile[0], e) && plate_tile(g, p, 1, &tile[1], e) &&
               compose_sheet((compose_tile[2]){{&tile[0], p->caption[0]}, {&tile[1], p->caption[1]}}, 2,
-                            &params, &sheet, e);
+                            &params, &whole, e);
     png_note notes[2] = {{"Software", "gnathos " GNATHOS_VERSION}, {"Renderer", studio_description(g->s)}};
-    ok = ok && png_file_write(&sheet, notes, 2, path, e);
+    ok = ok && png_file_write(&whole, notes, 2, path, e);
     image_free(&tile[0]);
     image_free(&tile[1]);
-    image_free(&sheet);
+    image_free(&whole);
     return ok;
 }
 
 bool anatomy_exploded_write(const anatomy_piece *pieces, int count, const stroke *cuts, int cut_count,
-                            const head_frame *frame, const char *text, const comparison_params *params,
-                            const char *path, err *e)
+                            const head_frame *frame, const char *text, const gallery_style *style, int width,
+                            int height, const char *path, err *e)
 {
     if (count < 1) return err_set(e, ERR_USAGE, "%s: a picture of no segments", path);
     stage g;
@@ -160,7 +167,7 @@ bool anatomy_exploded_write(const anatomy_piece *pieces, int count, const stroke
     label_entry *entry = NEW_ARRAY(label_entry, count);
     int entries = 0;
     for (int i = 0; ok && i < count; i++) {
-        const comparison_part *part = &pieces[i].part;
+        const subject_part *part = &pieces[i].part;
         rigid move = part->before;
         vec_add(move.t, pieces[i].apart_mm, move.t);
         ok = stage_add(&g, part->bone, part->kind, part->rgb, &move, e);
@@ -172,13 +179,14 @@ bool anatomy_exploded_write(const anatomy_piece *pieces, int count, const stroke
                .caption = {"Three-quarter, left", "Left profile"},
                .frame = frame,
                .text = text,
-               .params = params,
+               .style = style,
+               .width = width,
+               .height = height,
                .cuts = cuts,
                .cut_count = cut_count,
                .entries = entry,
                .entry_count = entries};
-    ok = ok && picture_bake(g.s, g.layers, g.count, params->light_directions, e) &&
-         plate_write(&g, &p, path, e);
+    ok = ok && picture_bake(g.layers, g.count, style->light_directions, e) && plate_write(&g, &p, path, e);
     free(entry);
     stage_close(&g);
     return ok;
@@ -195,9 +203,9 @@ static bool soft_tissue(const char *label)
     return false;
 }
 
-bool anatomy_landmarks_write(const surface *skin, const comparison_part *parts, int part_count,
+bool anatomy_landmarks_write(const surface *skin, const subject_part *parts, int part_count,
                              const landmarks *points, const head_frame *frame, const char *text,
-                             const comparison_params *params, const char *path, err *e)
+                             const gallery_style *style, int width, int height, const char *path, err *e)
 {
     static const double red[3] = {0.80, 0.22, 0.20}, blue[3] = {0.13, 0.38, 0.70};
     if (!skin && part_count < 1) return err_set(e, ERR_USAGE, "%s: landmarks on nothing", path);
@@ -205,14 +213,14 @@ bool anatomy_landmarks_write(const surface *skin, const comparison_part *parts, 
     bool ok = stage_open(&g, part_count + 1, e);
     for (int i = 0; ok && i < part_count; i++)
         ok = stage_add(&g, parts[i].bone, parts[i].kind, parts[i].rgb, &parts[i].before, e);
-    ok = ok && picture_bake(g.s, g.layers, g.count, params->light_directions, e);
+    ok = ok && picture_bake(g.layers, g.count, style->light_directions, e);
     if (ok && skin) {
         double rgb[3];
         rigid stay = rigid_identity();
         material_color(MATERIAL_SKIN, rgb);
         ok = stage_add(&g, skin, MATERIAL_SKIN, rgb, &stay, e) &&
-             picture_bake(g.s, g.layers + g.count - 1, 1, params->light_directions, e);
-        if (ok && part_count) g.layers[g.count - 1].opacity = params->skin_opacity;
+             picture_bake(g.layers + g.count - 1, 1, style->light_directions, e);
+        if (ok && part_count) g.layers[g.count - 1].opacity = style->skin_opacity;
     }
     mark *marks = NEW_ARRAY(mark, points->count);
     label_point *names = NEW_ARRAY(label_point, points->count);
@@ -231,7 +239,9 @@ bool anatomy_landmarks_write(const surface *skin, const comparison_part *parts, 
                .caption = {"Front", "Left profile"},
                .frame = frame,
                .text = text,
-               .params = params,
+               .style = style,
+               .width = width,
+               .height = height,
                .marks = marks,
                .points = names,
                .point_count = points->count,

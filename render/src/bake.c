@@ -1,225 +1,225 @@
-/* Light transfer: for each of a few dozen directions the layers are drawn into a depth map, and every vertex
- * that the map hides loses the light from there. */
+/* Light transfer: for each of a few dozen directions the layers' triangles go into a depth map, and every
+ * vertex that the map hides loses the light from there. The maps are made here and not by OpenGL: setting up
+ * a triangle costs a software driver ten times what drawing it into a map costs, on one thread; here
+ * directions run in parallel. */
 #include "render/picture.h"
 #include "render/src/studio.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
-#include <assert.h>
 #include <stdlib.h>
 
-enum { MAP_SIDE = 640 };
-static const double lift_mm = 0.7; /* sample point above the surface: more than the steps of a CT skin */
-static const double bias_mm = 0.6; /* depth slack, about one map cell on a 300 mm head */
+enum { MAP_SIDE = 512 };
+static const float lift_mm = 0.7f; /* sample point above the surface: more than the steps of a CT skin */
+static const float bias_mm = 0.6f; /* depth slack, about one map cell on a 300 mm head */
 
-void harmonics_at(const double d[3], double y[HARMONICS])
+typedef struct bake {
+    const layer *layers;
+    int layer_count, directions;
+    double centre[3], radius; /* of a sphere around all layers */
+    uint8_t **hidden; /* per layer [directions*vertex_count]: share of the light that is hidden, of 255 */
+} bake;
+
+typedef struct light_map { /* depth of the first surface that light from one direction meets */
+    double right[3], up[3], toward[3];
+    float *near; /* [MAP_SIDE^2] mm towards the light; -HUGE_VALF: nothing */
+} light_map;
+
+/* From a layer's own axes to column and row (in cells) and height towards the light. */
+typedef struct placing {
+    float row[3][4];
+} placing;
+
+static placing place_layer(const bake *b, const light_map *m, const rigid *move)
 {
-    double x = d[0], v = d[1], z = d[2];
-    y[0] = 0.28209479177387814;
-    y[1] = 0.4886025119029199 * v;
-    y[2] = 0.4886025119029199 * z;
-    y[3] = 0.4886025119029199 * x;
-    y[4] = 1.0925484305920792 * x * v;
-    y[5] = 1.0925484305920792 * v * z;
-    y[6] = 0.31539156525252005 * (3 * z * z - 1);
-    y[7] = 1.0925484305920792 * x * z;
-    y[8] = 0.5462742152960396 * (x * x - v * v);
+    const double *axis[3] = {m->right, m->up, m->toward};
+    rigid back = rigid_inverse(move);
+    double from[3];
+    vec_sub(move->t, b->centre, from);
+    placing out;
+    for (int r = 0; r < 3; r++) {
+        double local[3], scale = r < 2 ? MAP_SIDE / (2 * b->radius) : 1,
+                         shift = r < 2 ? MAP_SIDE / 2.0 - 0.5 : 0;
+        rigid_rotate(&back, axis[r], local);
+        for (int c = 0; c < 3; c++) out.row[r][c] = (float)(scale * local[c]);
+        out.row[r][3] = (float)(scale * vec_dot(axis[r], from) + shift);
+    }
+    return out;
 }
 
-void sphere_direction(int i, int n, double d[3])
+static void place(const placing *k, const float *p, float out[3])
 {
-    const double turn = M_PI * (3 - sqrt(5.0));
-    double z = 1 - (2 * i + 1.0) / n, r = sqrt(fmax(0, 1 - z * z));
-    d[0] = r * cos(turn * i);
-    d[1] = r * sin(turn * i);
-    d[2] = z;
+    for (int r = 0; r < 3; r++)
+        out[r] = k->row[r][0] * p[0] + k->row[r][1] * p[1] + k->row[r][2] * p[2] + k->row[r][3];
 }
 
-typedef struct job {
-    const model *m;
-    rigid move;
-    double toward[3], right[3], up[3], centre[3], radius; /* of the depth map */
-    double toward_local[3];
-    double y[HARMONICS], share; /* harmonics of the direction in the model's own axes; 4 / directions */
-    const float *depth;         /* [MAP_SIDE^2], 0 nearest to the light */
-    float *lost;                /* [HARMONICS*vertex_count] */
-} job;
+static float least(float a, float b, float c)
+{
+    float ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+
+/* Cells whose middle lies in the triangle. Sides that face away hide nothing that the sides facing the light
+ * do not. The result is the largest height of all triangles: their order does not matter. */
+static void draw_triangle(float *near, const float *a, const float *b, const float *c)
+{
+    float abx = b[0] - a[0], aby = b[1] - a[1], acx = c[0] - a[0], acy = c[1] - a[1],
+          area = abx * acy - aby * acx;
+    if (!(area > 0)) return;
+    float left = least(a[0], b[0], c[0]), low = least(a[1], b[1], c[1]);
+    int x0 = (int)left, y0 = (int)low;
+    x0 += (float)x0 < left;
+    y0 += (float)y0 < low;
+    int x1 = (int)-least(-a[0], -b[0], -c[0]), y1 = (int)-least(-a[1], -b[1], -c[1]);
+    float per_area = 1 / area, bz = (b[2] - a[2]) * per_area, cz = (c[2] - a[2]) * per_area;
+    for (int y = y0; y <= y1; y++)
+        for (int x = x0; x <= x1; x++) {
+            float px = (float)x - a[0], py = (float)y - a[1];
+            float v = px * acy - py * acx, w = abx * py - aby * px;
+            if (v < 0 || w < 0 || v + w > area) continue;
+            float z = a[2] + v * bz + w * cz, *cell = near + y * MAP_SIDE + x;
+            if (z > *cell) *cell = z;
+        }
+}
+
+static void draw_layer(const bake *b, const light_map *m, const layer *l)
+{
+    const model *s = l->shape;
+    placing k = place_layer(b, m, &l->move);
+    float *at = NEW_ARRAY(float, 3 * (size_t)s->vertex_count);
+    for (size_t v = 0; v < (size_t)s->vertex_count; v++) place(&k, s->xyz + 3 * v, at + 3 * v);
+    for (size_t t = 0; t < (size_t)s->triangle_count; t++)
+        draw_triangle(m->near, at + 3 * (size_t)s->tri[3 * t], at + 3 * (size_t)s->tri[3 * t + 1],
+                      at + 3 * (size_t)s->tri[3 * t + 2]);
+    free(at);
+}
 
 /* Share of the four surrounding map cells that hide the point. */
-static double hidden(const job *j, const double p[3])
+static float hidden_at(const float *near, const float at[3])
 {
-    double d[3];
-    vec_sub(p, j->centre, d);
-    double u = (vec_dot(d, j->right) / j->radius + 1) / 2 * MAP_SIDE - 0.5;
-    double v = (vec_dot(d, j->up) / j->radius + 1) / 2 * MAP_SIDE - 0.5;
-    double z = (1 - vec_dot(d, j->toward) / j->radius) / 2 - bias_mm / (2 * j->radius);
-    int iu = (int)floor(u), iv = (int)floor(v);
-    if (iu < 0 || iv < 0 || iu + 1 >= MAP_SIDE || iv + 1 >= MAP_SIDE) return 0;
-    double fu = u - iu, fv = v - iv, sum = 0;
-    for (int b = 0; b < 2; b++)
-        for (int a = 0; a < 2; a++)
-            if ((double)j->depth[(size_t)(iv + b) * MAP_SIDE + (size_t)(iu + a)] < z)
-                sum += (a ? fu : 1 - fu) * (b ? fv : 1 - fv);
-    return sum;
+    int x = (int)at[0], y = (int)at[1];
+    const float *cell = near + y * MAP_SIDE + x;
+    float u = at[0] - (float)x, v = at[1] - (float)y, z = at[2] + bias_mm;
+    return (1 - v) * ((cell[0] > z ? 1 - u : 0) + (cell[1] > z ? u : 0)) +
+           v * ((cell[MAP_SIDE] > z ? 1 - u : 0) + (cell[MAP_SIDE + 1] > z ? u : 0));
 }
 
+static void look_from(const bake *b, const light_map *m, const layer *l, uint8_t *hidden)
+{
+    const model *s = l->shape;
+    placing k = place_layer(b, m, &l->move);
+    const float *toward = k.row[2];
+    for (size_t v = 0; v < (size_t)s->vertex_count; v++) {
+        const float *n = s->normal + 3 * v, *x = s->xyz + 3 * v;
+        if (n[0] * toward[0] + n[1] * toward[1] + n[2] * toward[2] <= 0) continue;
+        float p[3] = {x[0] + lift_mm * n[0], x[1] + lift_mm * n[1], x[2] + lift_mm * n[2]}, at[3];
+        place(&k, p, at);
+        hidden[v] = (uint8_t)(255 * hidden_at(m->near, at) + 0.5f);
+    }
+}
+
+static void bake_direction(int64_t begin, int64_t end, void *context)
+{
+    const bake *b = context;
+    float *near = NEW_ARRAY(float, MAP_SIDE *MAP_SIDE);
+    for (int64_t i = begin; i < end; i++) {
+        light_map m = {.near = near};
+        sphere_direction((int)i, b->directions, m.toward);
+        double helper[3] = {fabs(m.toward[0]) < 0.7, fabs(m.toward[0]) >= 0.7, 0};
+        vec_cross(helper, m.toward, m.right);
+        vec_normalize(m.right);
+        vec_cross(m.toward, m.right, m.up);
+        for (int c = 0; c < MAP_SIDE * MAP_SIDE; c++) near[c] = -HUGE_VALF;
+        for (int l = 0; l < b->layer_count; l++) draw_layer(b, &m, &b->layers[l]);
+        for (int l = 0; l < b->layer_count; l++)
+            look_from(b, &m, &b->layers[l], b->hidden[l] + i * b->layers[l].shape->vertex_count);
+    }
+    free(near);
+}
+
+typedef struct gathering { /* the light that one layer loses, over all directions */
+    const model *shape;
+    const uint8_t *hidden;
+    int directions;
+    const float *way, *harmonics; /* [3*directions], [HARMONICS*directions] in the model's own axes */
+    float *transfer;              /* [HARMONICS*vertex_count] */
+} gathering;
+
+/* The open lobe is exact; only what is hidden was sampled, so that open skin carries no sampling noise. */
 static void gather(int64_t begin, int64_t end, void *context)
 {
-    const job *j = context;
+    const gathering *g = context;
     for (int64_t v = begin; v < end; v++) {
-        const float *n = j->m->normal + 3 * v, *x = j->m->xyz + 3 * v;
-        double normal[3] = {(double)n[0], (double)n[1], (double)n[2]},
-               facing = vec_dot(normal, j->toward_local);
-        if (facing <= 0) continue;
-        double p[3] = {(double)x[0], (double)x[1], (double)x[2]};
-        vec_axpy(p, lift_mm, normal, p);
-        rigid_apply(&j->move, p, p);
-        double share = j->share * facing * hidden(j, p);
-        if (share > 0)
-            for (int i = 0; i < HARMONICS; i++) j->lost[HARMONICS * v + i] += (float)(share * j->y[i]);
+        const float *n = g->shape->normal + 3 * v;
+        float *t = g->transfer + HARMONICS * v, lost[HARMONICS] = {0};
+        for (int i = 0; i < g->directions; i++) {
+            uint8_t hidden = g->hidden[(size_t)i * (size_t)g->shape->vertex_count + (size_t)v];
+            if (!hidden) continue;
+            const float *d = g->way + 3 * i, *y = g->harmonics + HARMONICS * i;
+            float share = (float)hidden * (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]);
+            for (int h = 0; h < HARMONICS; h++) lost[h] += share * y[h];
+        }
+        lobe_at(n, t);
+        for (int h = 0; h < HARMONICS; h++) t[h] -= lost[h] * 4 / (255.0f * (float)g->directions);
     }
 }
 
-/* World to clip of an orthographic view of the sphere (column-major). */
-static void light_matrix(const job *j, float m[16])
+static void finish_layer(const bake *b, int index)
 {
-    const double *axis[3] = {j->right, j->up, j->toward};
-    for (int r = 0; r < 3; r++) {
-        double sign = r == 2 ? -1 : 1;
-        for (int c = 0; c < 3; c++) m[4 * c + r] = (float)(sign * axis[r][c] / j->radius);
-        m[12 + r] = (float)(-sign * vec_dot(axis[r], j->centre) / j->radius);
+    const layer *l = &b->layers[index];
+    model *m = l->shape;
+    size_t n = (size_t)m->vertex_count;
+    float *way = NEW_ARRAY(float, 3 * b->directions), *y = NEW_ARRAY(float, HARMONICS * b->directions);
+    rigid back = rigid_inverse(&l->move);
+    for (int i = 0; i < b->directions; i++) {
+        double d[3], harmonics[HARMONICS];
+        sphere_direction(i, b->directions, d);
+        rigid_rotate(&back, d, d);
+        harmonics_at(d, harmonics);
+        for (int k = 0; k < 3; k++) way[3 * i + k] = (float)d[k];
+        for (int h = 0; h < HARMONICS; h++) y[HARMONICS * i + h] = (float)harmonics[h];
     }
-    m[3] = m[7] = m[11] = 0;
-    m[15] = 1;
+    gathering g = {m, b->hidden[index], b->directions, way, y, m->sharp};
+    parallel_for(m->vertex_count, 8192, gather, &g);
+    model_smooth(m, m->sharp, HARMONICS, 1);
+    for (size_t i = 0; i < HARMONICS * n; i++) m->soft[i] = m->sharp[i];
+    model_smooth(m, m->soft, HARMONICS, m->scatter_passes);
+    free(way);
+    free(y);
 }
 
-static void move_matrix(const rigid *a, float m[16])
-{
-    for (int c = 0; c < 3; c++) {
-        for (int r = 0; r < 3; r++) m[4 * c + r] = (float)a->r[3 * r + c];
-        m[12 + c] = (float)a->t[c];
-        m[4 * c + 3] = 0;
-    }
-    m[15] = 1;
-}
-
-static void bounding_sphere(const layer *layers, int count, double centre[3], double *radius)
+static void bounding_sphere(bake *b)
 {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (int l = 0; l < count; l++)
-        for (int32_t v = 0; v < layers[l].shape->vertex_count; v++) {
-            const float *x = layers[l].shape->xyz + 3 * (size_t)v;
+    for (int l = 0; l < b->layer_count; l++)
+        for (size_t v = 0; v < (size_t)b->layers[l].shape->vertex_count; v++) {
+            const float *x = b->layers[l].shape->xyz + 3 * v;
             double p[3] = {(double)x[0], (double)x[1], (double)x[2]};
-            rigid_apply(&layers[l].move, p, p);
+            rigid_apply(&b->layers[l].move, p, p);
             for (int c = 0; c < 3; c++) {
                 low[c] = fmin(low[c], p[c]);
                 high[c] = fmax(high[c], p[c]);
             }
         }
-    for (int c = 0; c < 3; c++) centre[c] = (low[c] + high[c]) / 2;
-    *radius = vec_distance(low, high) / 2 + 2;
+    for (int c = 0; c < 3; c++) b->centre[c] = (low[c] + high[c]) / 2;
+    b->radius = 1.01 * vec_distance(low, high) / 2 + 2; /* all points and their lift fall inside the map */
 }
 
-static void finish_transfer(model *m, const float *lost, float *work)
-{
-    static const double lobe[HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
-                                           1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
-    float *transfer = NEW_ARRAY(float, 2 * HARMONICS * (size_t)m->vertex_count);
-    /* The open lobe is exact; only what is hidden was sampled, so that open skin carries no sampling noise.
-     */
-    for (int32_t v = 0; v < m->vertex_count; v++) {
-        const float *n = m->normal + 3 * (size_t)v;
-        double y[HARMONICS];
-        harmonics_at((double[3]){(double)n[0], (double)n[1], (double)n[2]}, y);
-        for (size_t i = 0; i < HARMONICS; i++)
-            work[HARMONICS * (size_t)v + i] = (float)(lobe[i] * y[i]) - lost[HARMONICS * (size_t)v + i];
-    }
-    for (int part = 0; part < 2; part++) {
-        model_smooth(m, work, HARMONICS, part ? m->scatter_passes : 1);
-        for (int32_t v = 0; v < m->vertex_count; v++)
-            for (size_t i = 0; i < HARMONICS; i++)
-                transfer[(2 * (size_t)v + (size_t)part) * HARMONICS + i] = work[HARMONICS * (size_t)v + i];
-    }
-    model_set_transfer(m, transfer);
-    free(transfer);
-}
-
-bool picture_bake(studio *s, const layer *layers, int layer_count, int directions, err *e)
+bool picture_bake(const layer *layers, int layer_count, int directions, err *e)
 {
     if (layer_count < 1) return true;
     if (directions < 32 || directions > 1024)
         return err_set(e, ERR_USAGE, "light from %d directions: 32 to 1024 are possible", directions);
-    if (!studio_use(s, e)) return false;
-    const gl *g = &s->gl;
-    GLuint frame, depth_buffer;
-    g->GenFramebuffers(1, &frame);
-    g->BindFramebuffer(GL_FRAMEBUFFER, frame);
-    g->GenRenderbuffers(1, &depth_buffer);
-    g->BindRenderbuffer(GL_RENDERBUFFER, depth_buffer);
-    g->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, MAP_SIDE, MAP_SIDE);
-    g->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_buffer);
-    g->DrawBuffer(GL_NONE);
-    g->ReadBuffer(GL_NONE);
-    bool ok = g->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE ||
-              err_set(e, ERR_RESOURCE, "no picture: the depth map for the light cannot be made");
-
-    float *depth = NEW_ARRAY(float, MAP_SIDE *MAP_SIDE), **lost = NEW_ARRAY(float *, layer_count);
+    bake b = {.layers = layers, .layer_count = layer_count, .directions = directions};
+    b.hidden = NEW_ARRAY(uint8_t *, layer_count);
+    bounding_sphere(&b);
     for (int l = 0; l < layer_count; l++)
-        lost[l] = NEW_ARRAY(float, HARMONICS *(size_t)layers[l].shape->vertex_count);
-    job j = {.share = 4.0 / directions, .depth = depth};
-    bounding_sphere(layers, layer_count, j.centre, &j.radius);
-    g->Viewport(0, 0, MAP_SIDE, MAP_SIDE);
-    g->Enable(GL_DEPTH_TEST);
-    g->Disable(GL_BLEND);
-    /* Sides that face away hide nothing that the sides facing the light do not; closed or not, half the work.
-     */
-    g->Enable(GL_CULL_FACE);
-    g->CullFace(GL_BACK);
-    g->DepthFunc(GL_LESS);
-    g->DepthMask(GL_TRUE);
-    g->UseProgram(s->ribbon);
-    GLint to_clip = g->GetUniformLocation(s->ribbon, "to_clip"),
-          moving = g->GetUniformLocation(s->ribbon, "move");
-    for (int i = 0; ok && i < directions; i++) {
-        sphere_direction(i, directions, j.toward);
-        double helper[3] = {fabs(j.toward[0]) < 0.7, fabs(j.toward[0]) >= 0.7, 0};
-        vec_cross(helper, j.toward, j.right);
-        vec_normalize(j.right);
-        vec_cross(j.toward, j.right, j.up);
-        float light[16], move[16];
-        light_matrix(&j, light);
-        g->UniformMatrix4fv(to_clip, 1, GL_FALSE, light);
-        g->Clear(GL_DEPTH_BUFFER_BIT);
-        for (int l = 0; l < layer_count; l++) {
-            move_matrix(&layers[l].move, move);
-            g->UniformMatrix4fv(moving, 1, GL_FALSE, move);
-            g->BindVertexArray(layers[l].shape->array);
-            g->DrawElements(GL_TRIANGLES, 3 * layers[l].shape->triangle_count, GL_UNSIGNED_INT, NULL);
-        }
-        g->ReadPixels(0, 0, MAP_SIDE, MAP_SIDE, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
-        for (int l = 0; l < layer_count; l++) {
-            rigid back = rigid_inverse(&layers[l].move);
-            j.m = layers[l].shape;
-            j.move = layers[l].move;
-            j.lost = lost[l];
-            rigid_rotate(&back, j.toward, j.toward_local);
-            harmonics_at(j.toward_local, j.y);
-            parallel_for(j.m->vertex_count, 8192, gather, &j);
-        }
-        ok = studio_check(s, "gathering the light", e);
-    }
+        b.hidden[l] = NEW_ARRAY(uint8_t, (size_t)directions * (size_t)layers[l].shape->vertex_count);
+    parallel_for(directions, 1, bake_direction, &b);
     for (int l = 0; l < layer_count; l++) {
-        float *work = NEW_ARRAY(float, HARMONICS *(size_t)layers[l].shape->vertex_count);
-        if (ok) finish_transfer(layers[l].shape, lost[l], work);
-        free(work);
-        free(lost[l]);
+        finish_layer(&b, l);
+        free(b.hidden[l]);
     }
-    free(lost);
-    free(depth);
-    g->Disable(GL_CULL_FACE);
-    g->BindVertexArray(0);
-    g->BindFramebuffer(GL_FRAMEBUFFER, 0);
-    g->DeleteFramebuffers(1, &frame);
-    g->DeleteRenderbuffers(1, &depth_buffer);
-    return ok;
+    free(b.hidden);
+    return true;
 }

@@ -26,6 +26,36 @@ const char *camera_view_name(camera_view view)
     return table[view].name;
 }
 
+void camera_view_angles(camera_view view, double *azimuth_deg, double *elevation_deg)
+{
+    assert(view >= 0 && view < VIEW_COUNT);
+    const double *t = table[view].toward;
+    *elevation_deg = atan2(t[2], hypot(t[0], t[1])) * (180 / M_PI);
+    /* above and below, the direction of the picture's upper border tells where one looks from */
+    *azimuth_deg = hypot(t[0], t[1]) > 0 ? atan2(t[0], -t[1]) * (180 / M_PI) : 0;
+}
+
+camera camera_orbit(double azimuth_deg, double elevation_deg, double roll_deg, const head_frame *frame,
+                    const double target[3])
+{
+    double a = azimuth_deg * M_PI / 180, b = elevation_deg * M_PI / 180, roll = roll_deg * M_PI / 180;
+    double toward_local[3] = {cos(b) * sin(a), -cos(b) * cos(a), sin(b)},
+           up_local[3] = {-sin(b) * sin(a), sin(b) * cos(a), cos(b)}, toward[3] = {0}, up[3] = {0}, tipped[3];
+    const double *axis[3] = {frame->left, frame->posterior, frame->up};
+    for (int k = 0; k < 3; k++) {
+        vec_axpy(toward, toward_local[k], axis[k], toward);
+        vec_axpy(up, up_local[k], axis[k], up);
+    }
+    camera c;
+    err e = {0};
+    bool ok = camera_custom(toward, up, target, &c, &e);
+    assert(ok);
+    for (int k = 0; k < 3; k++) tipped[k] = cos(roll) * c.up[k] - sin(roll) * c.right[k];
+    ok = camera_custom(toward, tipped, target, &c, &e);
+    assert(ok);
+    return c;
+}
+
 bool camera_custom(const double toward_viewer[3], const double up[3], const double target[3], camera *out,
                    err *e)
 {

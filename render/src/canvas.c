@@ -3,10 +3,9 @@
 
 enum { SAMPLES_PER_PIXEL = 4 }; /* the most that OSMesa has */
 
-bool canvas_open(const gl *g, int width, int height, int factor, canvas *out, err *e)
+bool canvas_open(const gl *g, int width, int height, canvas *out, err *e)
 {
-    canvas c = {.width = width, .height = height, .factor = factor};
-    int w = width * factor, h = height * factor;
+    canvas c = {.width = width, .height = height};
     g->GenFramebuffers(1, &c.many);
     g->GenFramebuffers(1, &c.one);
     g->GenFramebuffers(1, &c.final);
@@ -17,15 +16,16 @@ bool canvas_open(const gl *g, int width, int height, int factor, canvas *out, er
     g->GenTextures(1, &c.one_colour);
 
     g->BindRenderbuffer(GL_RENDERBUFFER, c.many_colour);
-    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_RGBA16F, w, h);
+    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_RGBA16F, width, height);
     g->BindRenderbuffer(GL_RENDERBUFFER, c.many_depth);
-    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_DEPTH_COMPONENT32F, w, h);
+    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_DEPTH_COMPONENT32F, width,
+                                      height);
     g->BindRenderbuffer(GL_RENDERBUFFER, c.one_depth);
-    g->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, w, h);
+    g->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
     g->BindRenderbuffer(GL_RENDERBUFFER, c.final_colour);
     g->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
     g->BindTexture(GL_TEXTURE_2D, c.one_colour);
-    g->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, w, h, 0, GL_RGBA, GL_FLOAT, NULL);
+    g->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
     g->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     g->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 
@@ -43,8 +43,8 @@ bool canvas_open(const gl *g, int width, int height, int factor, canvas *out, er
     ok &= g->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     *out = c;
     return ok || err_set(e, ERR_RESOURCE,
-                         "no picture: a frame buffer of %d x %d pixels with %d samples cannot be made", w, h,
-                         SAMPLES_PER_PIXEL);
+                         "no picture: a frame buffer of %d x %d pixels with %d samples cannot be made", width,
+                         height, SAMPLES_PER_PIXEL);
 }
 
 void canvas_close(const gl *g, canvas *c)

@@ -16,6 +16,13 @@ int compose_title_height(const compose_params *params)
     return params->title ? (int)(2.4 * params->font_size) : 0;
 }
 
+void compose_tile_size(int count, const compose_params *params, int *width, int *height)
+{
+    int columns = count < params->columns ? count : params->columns, rows = (count + columns - 1) / columns;
+    *width = (params->sheet_width - (columns - 1) * params->gap) / columns;
+    *height = (params->sheet_height - compose_title_height(params) - (rows - 1) * params->gap) / rows;
+}
+
 bool compose_sheet(const compose_tile *tiles, int count, const compose_params *params, image *out, err *e)
 {
     assert(count > 0 && params->columns > 0 && params->gap >= 0);
@@ -27,6 +34,8 @@ bool compose_sheet(const compose_tile *tiles, int count, const compose_params *p
     int columns = count < params->columns ? count : params->columns, rows = (count + columns - 1) / columns;
     int64_t width = (int64_t)columns * (w + params->gap) - params->gap;
     int64_t height = title + (int64_t)rows * (h + params->gap) - params->gap;
+    if (params->sheet_width) width = params->sheet_width;
+    if (params->sheet_height) height = params->sheet_height;
     if (width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX)
         return err_set(e, ERR_USAGE, "a sheet of %lld x %lld pixels: at most %d along a side",
                        (long long)width, (long long)height, IMAGE_SIZE_MAX);

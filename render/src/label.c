@@ -158,9 +158,20 @@ void pen_line(pen *p, double x0, double y0, double x1, double y1, double width, 
 {
     cairo_set_source_rgb(p->cr, rgb[0], rgb[1], rgb[2]);
     cairo_set_line_width(p->cr, width);
+    cairo_set_line_cap(p->cr, CAIRO_LINE_CAP_ROUND); /* pieces of a curve join without a gap */
     cairo_move_to(p->cr, x0, y0);
     cairo_line_to(p->cr, x1, y1);
     cairo_stroke(p->cr);
+}
+
+void pen_dot(pen *p, double x, double y, double radius, const double rgb[3])
+{
+    cairo_set_source_rgb(p->cr, paper[0], paper[1], paper[2]);
+    cairo_arc(p->cr, x, y, radius + fmax(1, 0.25 * radius), 0, 2 * M_PI);
+    cairo_fill(p->cr);
+    cairo_set_source_rgb(p->cr, rgb[0], rgb[1], rgb[2]);
+    cairo_arc(p->cr, x, y, radius, 0, 2 * M_PI);
+    cairo_fill(p->cr);
 }
 
 void pen_badge(pen *p, double x, double y, double radius, const double rgb[3], const char *letter)
@@ -199,29 +210,31 @@ void label_scale_bar(pen *p, double x, double y, double pixels_per_mm, double le
 void label_color_bar(pen *p, double x, double y, double width, double height, double size, const label_map *m)
 {
     double fade = (m->fade_end - m->low) / (m->high - m->low);
-    for (int row = 0; row < (int)height; row++) {
-        double t = 1 - (row + 0.5) / height, rgb[3];
+    x = floor(x);
+    y = floor(y);
+    for (int column = 0; column < (int)width; column++) {
+        double t = (column + 0.5) / width, rgb[3];
         colormap_color(m->map, m->low + t * (m->high - m->low), m->low, m->high, rgb);
         /* mixed in linear light, as the shader does */
         for (int k = 0; fade > 0 && t < fade && k < 3; k++)
             rgb[k] = colormap_encode((1 - t / fade) * colormap_linear(m->fade_rgb[k]) +
                                      t / fade * colormap_linear(rgb[k]));
-        pen_box(p, x, y + row, width, 1, rgb, 1);
+        pen_box(p, x + column, y, 1, height, rgb, 1);
     }
     cairo_set_source_rgb(p->cr, ink[0], ink[1], ink[2]);
     cairo_set_line_width(p->cr, 1);
-    cairo_rectangle(p->cr, x - 0.5, y - 0.5, width + 1, height + 1);
+    cairo_rectangle(p->cr, x - 0.5, y - 0.5, floor(width) + 1, height + 1);
     cairo_stroke(p->cr);
     /* About five steps of a round size. */
     double step = colormap_nice_ceiling((m->high - m->low) / 5 * (1 - 1e-9));
     for (double v = ceil(m->low / step - 1e-9) * step; v <= m->high + 1e-9 * step; v += step) {
-        double at = y + height * (1 - (v - m->low) / (m->high - m->low));
+        double at = x + width * (v - m->low) / (m->high - m->low);
         char text[32];
-        snprintf(text, sizeof text, "%g", fabs(v) < 1e-9 * step ? 0 : v);
-        pen_box(p, x - 0.35 * size, floor(at), 0.35 * size, 1, ink, 1);
-        pen_text(p, x - 0.55 * size, at + 0.36 * size, LABEL_RIGHT, size, false, ink, text);
+        snprintf(text, sizeof text, m->low < 0 && fabs(v) > 1e-9 * step ? "%+g" : "%g",
+                 fabs(v) < 1e-9 * step ? 0 : v);
+        pen_box(p, floor(at), y - 0.35 * size, 1, 0.35 * size, ink, 1);
+        pen_text(p, at, y - 0.55 * size, LABEL_CENTRE, size, false, ink, text);
     }
-    pen_text(p, x + width, y - 0.9 * size, LABEL_RIGHT, size, true, ink, m->caption);
 }
 
 void label_sides(pen *p, double x, double y, double width, double height, double size, const camera *c,
@@ -240,80 +253,6 @@ void label_sides(pen *p, double x, double y, double width, double height, double
         pen_badge(p, x + 1.7 * r, y + height / 2, r, toward > 0 ? left_rgb : right_rgb,
                   toward > 0 ? "L" : "R");
     }
-}
-
-typedef struct placed {
-    double x, y, at; /* point; base line of the name */
-    int index;
-} placed;
-
-static int by_x(const void *a, const void *b)
-{
-    const placed *p = a, *q = b;
-    if (p->x < q->x || p->x > q->x) return p->x < q->x ? -1 : 1;
-    return p->index - q->index;
-}
-
-static int by_y(const void *a, const void *b)
-{
-    const placed *p = a, *q = b;
-    if (p->y < q->y || p->y > q->y) return p->y < q->y ? -1 : 1;
-    return p->index - q->index;
-}
-
-/* Heights as near as possible (least squares) to those of the points with `step` between them: isotonic
- * regression of y - i step by pooling neighbours that violate the order, then the borders. */
-static void spread(placed *q, int n, double step, double low, double high)
-{
-    double *sum = NEW_ARRAY(double, n);
-    int *size = NEW_ARRAY(int, n), blocks = 0;
-    for (int i = 0; i < n; i++) {
-        sum[blocks] = q[i].y - i * step;
-        size[blocks++] = 1;
-        while (blocks > 1 && sum[blocks - 2] / size[blocks - 2] > sum[blocks - 1] / size[blocks - 1]) {
-            sum[blocks - 2] += sum[blocks - 1];
-            size[blocks - 2] += size[blocks - 1];
-            blocks--;
-        }
-    }
-    for (int b = 0, i = 0; b < blocks; b++)
-        for (int k = 0; k < size[b]; k++, i++)
-            q[i].at = fmax(low, fmin(sum[b] / size[b], high - (n - 1) * step)) + i * step;
-    free(sum);
-    free(size);
-}
-
-void label_points(pen *p, const image *im, double size, const camera *c, const label_point *points, int count,
-                  const uint8_t *seen)
-{
-    placed *all = NEW_ARRAY(placed, count);
-    int n = 0;
-    for (int i = 0; i < count; i++) {
-        double near_mm;
-        placed q = {.index = i};
-        if (seen && !seen[i]) continue;
-        camera_project(c, im->width, im->height, points[i].xyz, &q.x, &q.y, &near_mm);
-        if (q.x >= 0 && q.y >= 0 && q.x < im->width && q.y < im->height) all[n++] = q;
-    }
-    /* Half of the names go to each border; they shrink where a column would be too long. */
-    qsort(all, (size_t)n, sizeof *all, by_x);
-    double low = 5 * size, high = im->height - 5 * size;
-    for (int side = 0; side < 2; side++) {
-        placed *q = all + (side ? n / 2 : 0);
-        int m = side ? n - n / 2 : n / 2;
-        double step = m > 1 ? fmin(1.3 * size, (high - low) / (m - 1)) : size, font = fmin(size, step / 1.1);
-        qsort(q, (size_t)m, sizeof *q, by_y);
-        spread(q, m, step, low, high);
-        for (int i = 0; i < m; i++) {
-            const char *text = points[q[i].index].text;
-            double wide = pen_text_width(p, font, false, text),
-                   edge = side ? im->width - 4.4 * size : 4.4 * size;
-            double elbow = side ? edge - wide - 0.4 * size : edge + wide + 0.4 * size;
-            pen_line(p, elbow, q[i].at - 0.35 * font, q[i].x, q[i].y, fmax(1, size / 16), ink);
-            pen_text(p, edge, q[i].at, side ? LABEL_RIGHT : LABEL_LEFT, font, false, ink, text);
-        }
-    }
-    free(all);
 }
 
 double label_legend(pen *p, double x, double y, double size, const label_entry *entries, int count)

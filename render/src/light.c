@@ -25,13 +25,8 @@ static void to_world(const camera *c, const double d[3], double out[3])
 lamps lamps_of(const camera *c)
 {
     lamps out;
-    double key[3], fill[3];
-    to_world(c, lamp[0].direction, key);
-    to_world(c, lamp[1].direction, fill);
-    for (int i = 0; i < 3; i++) {
-        out.key[i] = (float)key[i];
-        out.fill[i] = (float)fill[i];
-    }
+    to_world(c, lamp[0].direction, out.key);
+    to_world(c, lamp[1].direction, out.fill);
     return out;
 }
 

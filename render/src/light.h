@@ -4,7 +4,7 @@
 #include "render/src/studio.h"
 
 typedef struct lamps {
-    float key[3], fill[3]; /* world directions towards the lamps, for the highlights */
+    double key[3], fill[3]; /* unit, world directions towards the lamps, for the highlights */
 } lamps;
 
 lamps lamps_of(const camera *c);

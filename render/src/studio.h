@@ -2,8 +2,7 @@
 #pragma once
 #include "render/studio.h"
 #include "render/src/canvas.h"
-
-enum { HARMONICS = 9 };
+#include "render/src/harmonics.h"
 
 struct studio {
     backend *context;
@@ -19,21 +18,17 @@ struct model {
     studio *home;
     int32_t source_count; /* vertices of the surface */
     int32_t vertex_count, triangle_count;
+    bool closed;         /* no border: its inside is never seen */
     int32_t *source;     /* [vertex_count] vertex of the surface */
     int32_t *tri;        /* [3*triangle_count] */
     float *xyz, *normal; /* [3*vertex_count] */
+    float *sharp, *soft; /* [HARMONICS*vertex_count] light transfer, and the same spread under the surface */
     int scatter_passes;
-    GLuint array, point_buffer, normal_buffer, transfer_buffer, index_buffer;
+    GLuint array, point_buffer, index_buffer;
 };
 
-/* Spherical harmonics of the unit vector d up to degree 2, real, orthonormal. */
-void harmonics_at(const double d[3], double y[HARMONICS]);
-/* Direction i of n, spread evenly over the sphere (Fibonacci spiral). */
-void sphere_direction(int i, int n, double d[3]);
 /* values[components*vertex_count] := mean of each with the mean of its neighbours, `passes` times. */
 void model_smooth(const model *m, float *values, int components, int passes);
-/* transfer[2*HARMONICS*vertex_count]: sharp, then scattered. Uploads it. */
-void model_set_transfer(model *m, const float *transfer);
 /* Makes the studio's context current; several studios may be open. */
 bool studio_use(studio *s, err *e) MUST_CHECK;
 /* GL errors since the last call become ERR_RESOURCE. */

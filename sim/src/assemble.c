@@ -378,6 +378,18 @@ double assembly_energy_noise(const assembly *a, const double *x)
     return sqrt(sum);
 }
 
+/* No singular value is larger: Gershgorin on F^T F. */
+static double stretch_bound(const double F[9])
+{
+    double most = 0;
+    for (int i = 0; i < 3; i++) {
+        double sum = 0;
+        for (int j = 0; j < 3; j++) sum += fabs(F[i] * F[j] + F[3 + i] * F[3 + j] + F[6 + i] * F[6 + j]);
+        most = fmax(most, sum);
+    }
+    return sqrt(most);
+}
+
 deformation_extremes assembly_extremes(const assembly *a, const double *x, bool with_stretch)
 {
     deformation_extremes d = {.min_j = HUGE_VAL, .min_j_tet = -1, .max_stretch_tet = -1};
@@ -391,7 +403,7 @@ deformation_extremes assembly_extremes(const assembly *a, const double *x, bool 
             d.min_j = J;
             d.min_j_tet = t;
         }
-        if (!with_stretch) continue;
+        if (!with_stretch || stretch_bound(F) <= d.max_stretch) continue;
         svd3(F, U, s, V);
         if (s[0] > d.max_stretch) {
             d.max_stretch = s[0];

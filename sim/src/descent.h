@@ -1,8 +1,11 @@
-/* descent: the iteration at one load. */
+/* descent: the iteration at one load. descent.c drives; point.c holds iterates and the line search, start.c
+ * the first guess, direct.c directions by factorised matrices, inexact.c those by conjugate gradients. */
 #pragma once
 #include "sim/linear.h"
 #include "sim/newton.h"
 #include "sim/src/contact_state.h"
+#include "sim/src/node_blocks.h"
+#include "sim/src/multigrid.h"
 
 enum { PAIR_LIMIT = 16 }; /* steps remembered between factorisations */
 
@@ -13,24 +16,38 @@ struct solver {
     contact *touch; /* NULL: no contact */
     boundary b;
     assembly a;
-    linear *l; /* NULL where nothing is unknown */
+    int blas_threads;
+    linear *l; /* NULL until a matrix is to be factorised */
+    /* for conjugate gradients; NULL until then */
+    node_blocks f;
+    blocks k;
+    multigrid *grid;
+    double grid_rate; /* iterations per digit with the matrix it was made of; 0: not known yet */
+    double grid_loss; /* iterations lost since, for its age */
     double prepare_s;
 };
+
+/* Makes t->l where it is not there. */
+bool solver_order(solver *t, err *e) MUST_CHECK;
 
 typedef struct descent {
     solver *t;
     const solve_params *params;
     equilibrium *out; /* records and counts go here */
+    bool inexact;     /* conjugate gradients, else factorised matrices */
     double load;
     /* present iterate */
     double *z, *x, *force, *g;
     double energy, residual, tolerance, energy_noise;
+    double residual_before; /* of the last iterate */
     /* trial point, direction, work */
     double *z_new, *x_new, *force_new, *g_new, *direction;
-    /* L-BFGS memory, newest last; q and alpha are work */
+    /* L-BFGS memory, newest last */
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
     bool touching;   /* contact counts now */
+    bool cut;        /* the last step was */
+    int64_t cg_at_load;
     double blend;    /* part of the clamped matrix that the last blend needed */
     bool has_factor; /* of this load's matrix, true, blended or projected */
     int since_factor;
@@ -44,3 +61,51 @@ void descent_free(descent *d);
  * residual is below the tolerance; d->x is the last iterate. */
 bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
                  solve_outcome *outcome, err *e) MUST_CHECK;
+
+/* point.c */
+double point_dot(const double *a, const double *b, int64_t n);
+/* Energy at x with contact where it counts; fills force[3*nodes] and g[unknowns]. */
+double point_evaluate(descent *d, const double *x, double *force, double *g);
+/* The trial point becomes the present one, which becomes the trial point. */
+void point_accept(descent *d, double energy);
+/* Energy, force and residual of the present iterate, as after a change of what counts. */
+void point_measure(descent *d);
+/* Adds the present iterate to the records and tells the caller. */
+void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s, int cg_iterations);
+/* Step length along direction, 0 where none is good; then the accepted point is the present one. */
+double point_line_search(descent *d);
+
+/* start.c */
+/* Residual of the reference: prescribed nodes moved, free ones carried by the guide only. It sees no common
+ * rigid motion, so a turned head is held to the same tolerance. */
+double start_reference(descent *d);
+/* Adds to z the linear response, about x_start, to carrying the prescribed nodes from x_start to x. *ok
+ * false: the start or its end has no energy. */
+bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_iterations, bool *ok,
+                   err *e) MUST_CHECK;
+
+/* direct.c */
+/* Fills the assembly's matrix at x, with contact where it counts. */
+void direct_fill(descent *d, const double *x, projection how);
+/* Factorises at x, from the wanted kind on towards the safer ones. *kind says what it became; *ok false:
+ * none. */
+bool direct_factorise(descent *d, const double *x, hessian_kind *kind, bool *ok, double *seconds,
+                      err *e) MUST_CHECK;
+/* direction = -(inverse Hessian) g by the factor and the steps since. */
+bool direct_direction(descent *d, err *e) MUST_CHECK;
+/* After point_accept: the old point is in z_new, g_new. */
+void direct_remember(descent *d);
+/* Is another step with the old factor the cheaper way? */
+bool direct_reusable(const descent *d);
+
+/* inexact.c */
+/* Makes the matrix at x ready for inexact_solve; kind TRUE or PROJECTED. *ok false: it has no
+ * preconditioner. */
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, double *seconds, err *e) MUST_CHECK;
+/* u = about its inverse times b, the residual rel_tol of b. Where the matrix shows negative curvature u is
+ * where the iteration had got to: u.b > 0 still. *ok false: the iteration got nowhere. */
+bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,
+                   err *e) MUST_CHECK;
+/* direction = about -(inverse Hessian) g, as exact as is worth it so far from the solution. */
+bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool *ok, double *seconds,
+                       err *e) MUST_CHECK;

@@ -65,6 +65,8 @@ static bool check_params(const solve_params *p, err *e)
         return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
     if (p->projection != PROJECTION_CLAMP && p->projection != PROJECTION_ABS)
         return err_set(e, ERR_INPUT, "projection must be clamp or abs");
+    if (p->linear != LINEAR_AUTO && p->linear != LINEAR_FACTOR && p->linear != LINEAR_GRADIENTS)
+        return err_set(e, ERR_INPUT, "linear must be auto, factor or gradients");
     if (p->blas_threads < 1)
         return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", p->blas_threads);
     return true;
@@ -93,6 +95,7 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     solver *t = NEW_ARRAY(solver, 1);
     t->mesh = problem->mesh;
     t->attach = problem->attach;
+    t->blas_threads = blas_threads;
     bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e);
     if (ok && problem->contact) ok = make_contact(t, problem, e);
     int32_t touching = t->touch ? t->touch->coupling_count : 0, count = 0, *pairs = NULL;
@@ -103,8 +106,6 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
          assembly_make(t->mesh, &el, &t->b, pairs, count + touching, &t->a, e);
     ok = ok && (!problem->average_volume || average_make(&t->a, e));
     free(pairs);
-    if (ok && t->b.unknown_count > 0)
-        ok = linear_create(t->b.unknown_count, t->a.column_start, t->a.row, blas_threads, &t->l, e);
     elements_free(&el);
     if (!ok) {
         solver_destroy(&t);
@@ -115,9 +116,18 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     return true;
 }
 
+bool solver_order(solver *t, err *e)
+{
+    return t->l ||
+           linear_create(t->b.unknown_count, t->a.column_start, t->a.row, t->blas_threads, &t->l, e);
+}
+
 void solver_destroy(solver **t)
 {
     if (!*t) return;
+    multigrid_destroy(&(*t)->grid);
+    blocks_free(&(*t)->k);
+    node_blocks_free(&(*t)->f);
     linear_destroy(&(*t)->l);
     contact_destroy(&(*t)->touch);
     attach_map_free(&(*t)->loosened);
@@ -183,6 +193,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     descent d;
     descent_make(&d, t, params, &q);
     if (t->touch) contact_restart(t->touch);
+    if (!start_xyz) multigrid_destroy(&t->grid); /* what is solved from rest does not depend on plans before */
     bool ok = true, from_guess = start_xyz != NULL;
     int eased = 0;
     double step = 1.0 / params->load_steps;
@@ -245,12 +256,13 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
             linear_stats s = linear_measure(t->l);
             q.factorisations = s.factorisations - before.factorisations;
             q.factor_s = s.factor_s - before.factor_s;
-            q.solve_s = s.solve_s - before.solve_s;
-            q.matrix_entries = s.matrix_entries;
+            q.solve_s += s.solve_s - before.solve_s;
             q.factor_entries = s.factor_entries;
             q.factor_flops = s.factor_flops;
             q.memory_peak_mb = s.memory_peak_mb;
         }
+        q.matrix_entries = t->a.column_start[t->b.unknown_count];
+        if (t->grid) q.memory_peak_mb += multigrid_mb(t->grid);
         q.total_s = clock_s() - begin;
         *out = q;
     } else

@@ -1,10 +1,11 @@
 #!/bin/sh
-# norm_heads.sh GNATHOS FOLDER FIRST LAST: synthetic heads of the seeds FIRST to LAST through check, cut and predict.
+# norm_heads.sh GNATHOS FOLDER FIRST LAST [COARSENESS]: synthetic heads of the seeds FIRST to LAST through check, cut and
+# predict.
 # Classes, sexes, open bites and asymmetries take turns; each head gets the plan of its kind in cases/. FOLDER/heads.csv:
 # seed, class, sex, plan, outcome ("solved", or the verb that refused and its words), largest errors of the measures asked
 # for (cephalometry: mm or degrees; depths of soft tissue: mm), inverted tets, smallest J, seconds of the four steps.
 set -eu
-[ $# -eq 4 ] || { echo "usage: norm_heads.sh GNATHOS FOLDER FIRST LAST" >&2; exit 2; }
+[ $# -eq 4 ] || [ $# -eq 5 ] || { echo "usage: norm_heads.sh GNATHOS FOLDER FIRST LAST [COARSENESS]" >&2; exit 2; }
 gnathos=$(realpath "$1") cases=$(cd "$(dirname "$0")/../../cases" && pwd)
 mkdir -p "$2"
 cd "$2"
@@ -23,7 +24,7 @@ while [ "$seed" -le "$4" ]; do
         "$gnathos" "$@" >"$head.log" 2>"$head.err" || outcome="$1: $(tail -n 1 "$head.err" | tr ',"' ';_')"
     }
     # shellcheck disable=SC2086
-    step new "$head" --norm --class $class --sex $sex --seed "$seed" $extra
+    step new "$head" --norm --coarseness "${5:-1}" --class $class --sex $sex --seed "$seed" $extra
     step check "$head" --plan "$cases/$plan/plan.json"
     step cut "$head" -o "$head.cut"
     step predict "$head" --plan "$cases/$plan/plan.json" -o "$head.out" --no-pictures

@@ -23,7 +23,7 @@ says 'Usage: gnathos VERB' help
 says 'Usage: gnathos check' check --help
 says 'Usage: gnathos check' help check
 says 'tissue.element_mm' help case
-says 'bounds.maxilla_advance_mm' help case
+says 'limits.maxilla_advance_mm.stop' help case
 says 'maxilla_impaction_mm' help plan
 says 'porion' help landmarks
 says 'no errors, 0 warnings' check .
@@ -33,7 +33,7 @@ says '"ok": true' check . --plan plan.json --json -q
 
 printf '{ "gnathos": 1, "maxilla_advance_mm": 12, "override": "cleft" }\n' >far.json
 says 'no errors, 1 warnings' check . --plan far.json
-grep -q 'warning: is 12, outside -5 to 10.*Accepted because: cleft' "$work/stderr" || { echo "no warning of the override"; failed=1; }
+grep -q 'warning: is 12, outside -5 to 8.*Accepted because: cleft' "$work/stderr" || { echo "no warning of the override"; failed=1; }
 
 sed 's/"surfaces"/"frame": "RAS", "surfaces"/' case.json >ras.json
 for mesh in skin skull mandible; do

@@ -62,5 +62,18 @@ assert before["regions"]["prediction"]["face"]["rms_mm"] > 0.2 and not before["c
 parts = [rows[n]["points"] for n in ("nose", "upper lip", "lower lip", "chin", "left cheek", "right cheek")]
 assert sum(parts) == rows["face"]["points"]
 PY
+# pictures on demand: named after what they show, the same bytes for any number of threads
+if [ -z "$pictures" ]; then
+    for jobs in 1 2; do
+        "$gnathos" render "$work/out" -o "$work/shown$jobs" -j $jobs --size 320x200 --pose wipe --view 30,-10 --show bones \
+            --show contour --show signed --show stretch --show tracing >"$work/shown.txt"
+        "$gnathos" render "$work/out" -o "$work/shown$jobs" -j $jobs --size 240x160 --turntable 3 --centre Pn --zoom 2 -q
+    done
+    [ "$(wc -l <"$work/shown.txt")" -eq 5 ] || fail "wanted five pictures: $(cat "$work/shown.txt")"
+    for name in bones_wipe_az30_el-10 contour signed_az30_el-10 stretch_az30_el-10 tracing skin_both_turn_002; do
+        cmp "$work/shown1/$name.png" "$work/shown2/$name.png" || fail "$name.png depends on the threads, or is missing"
+    done
+    [ -s "$work/compared/signed.png" ] || fail "compare drew no picture"
+fi
 # an output in use is not replaced unasked
 if "$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" >/dev/null 2>&1; then fail "an old output was replaced"; fi

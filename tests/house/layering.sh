@@ -41,6 +41,7 @@ only '(GL|EGL)/' 'render/src/'
 only 'png\.h' 'render/src/'
 only '(cairo|ft2build|freetype)' 'render/src/'
 only 'nettle/' 'app/content_hash\.c'
+only 'plplot/' 'app/study/plot\.c'
 only 'cmocka\.h' 'tests/check\.h'
 
 for library in '(suitesparse/)?cholmod' 'GL/osmesa' 'png\.h' 'cairo'; do

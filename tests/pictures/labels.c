@@ -104,20 +104,20 @@ static void the_patients_left_is_marked_on_the_viewers_right_in_front_views(void
     assert_true(x > 150 && y < 100 && n > 0);
 }
 
-static void the_colour_bar_runs_from_low_to_high_upwards(void **state)
+static void the_colour_bar_runs_from_low_to_high_rightwards(void **state)
 {
     (void)state;
-    image im = blank(200, 300);
+    image im = blank(300, 200);
     pen *p = pen_on(&im);
     label_map m = {COLORMAP_COOLWARM, -3, 3, -3, {0, 0, 0}, "mm"};
-    label_color_bar(p, 150, 50, 20, 200, 12, &m);
+    label_color_bar(p, 50, 150, 200, 20, 12, &m);
     pen_close(&p);
-    const uint8_t *top = image_pixel(&im, 160, 51), *bottom = image_pixel(&im, 160, 248),
-                  *middle = image_pixel(&im, 160, 150);
-    assert_near(top[0], 180, 3);
-    assert_near(top[2], 38, 6);
-    assert_near(bottom[0], 59, 6);
-    assert_near(bottom[2], 192, 3);
+    const uint8_t *high = image_pixel(&im, 248, 160), *low = image_pixel(&im, 51, 160),
+                  *middle = image_pixel(&im, 150, 160);
+    assert_near(high[0], 180, 3);
+    assert_near(high[2], 38, 6);
+    assert_near(low[0], 59, 6);
+    assert_near(low[2], 192, 3);
     assert_near(middle[0], 221, 3);
     assert_near(middle[1], 221, 3);
     image_free(&im);
@@ -158,8 +158,8 @@ static void a_png_comes_back_as_it_went_with_its_texts(void **state)
     err e = {0};
     image im = image_new(37, 19), back = {0};
     for (int i = 0; i < 4 * 37 * 19; i++) im.rgba[i] = (uint8_t)(i * 7 + i / 5);
-    const png_note notes[2] = {{"Software", "gnathos"}, {"Plan", "maxilla +5 mm"}};
-    assert_ok(png_file_write(&im, notes, 2, "round_trip.png", &e));
+    const png_note notes[3] = {{"Software", "gnathos"}, {"Plan", "maxilla +5 mm"}, {"Case", "M\u00fcller \u2013 3\u00b0"}};
+    assert_ok(png_file_write(&im, notes, 3, "round_trip.png", &e));
     assert_ok(png_file_read("round_trip.png", &back, &e));
     assert_int_equal(image_difference(&im, &back, 0), 0);
     image_free(&back);
@@ -167,18 +167,21 @@ static void a_png_comes_back_as_it_went_with_its_texts(void **state)
     assert_ok(png_file_note("round_trip.png", "Plan", &text, &e));
     assert_string_equal(text, "maxilla +5 mm");
     free(text);
+    assert_ok(png_file_note("round_trip.png", "Case", &text, &e));
+    assert_string_equal(text, notes[2].value);
+    free(text);
     assert_ok(png_file_note("round_trip.png", "tIME", &text, &e));
     assert_null(text);
     /* Opaque images go as RGB and come back opaque. */
     for (int i = 3; i < 4 * 37 * 19; i += 4) im.rgba[i] = 255;
-    assert_ok(png_file_write(&im, notes, 2, "round_trip.png", &e));
+    assert_ok(png_file_write(&im, notes, 3, "round_trip.png", &e));
     assert_ok(png_file_read("round_trip.png", &back, &e));
     assert_int_equal(image_difference(&im, &back, 0), 0);
     image_free(&back);
     assert_int_equal(truncate("round_trip.png", 200), 0);
     assert_refused(png_file_read("round_trip.png", &back, &e), ERR_INPUT);
     assert_refused(png_file_read("not_there.png", &back, &e), ERR_INPUT);
-    assert_refused(png_file_write(&im, notes, 2, "no/such/folder/x.png", &e), ERR_RESOURCE);
+    assert_refused(png_file_write(&im, notes, 3, "no/such/folder/x.png", &e), ERR_RESOURCE);
     assert_refused(png_file_write(&im, &(png_note){"", "x"}, 1, "bad_note.png", &e), ERR_USAGE);
     assert_int_equal(access("bad_note.png", F_OK), -1);
     remove("round_trip.png");
@@ -230,7 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scale_bar_is_as_long_as_it_says),
         cmocka_unit_test(the_patients_left_is_marked_on_the_viewers_right_in_front_views),
-        cmocka_unit_test(the_colour_bar_runs_from_low_to_high_upwards),
+        cmocka_unit_test(the_colour_bar_runs_from_low_to_high_rightwards),
         cmocka_unit_test(the_maps_are_the_published_ones),
         cmocka_unit_test(a_png_comes_back_as_it_went_with_its_texts),
         cmocka_unit_test(a_missing_font_is_refused_by_name),

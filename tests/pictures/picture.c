@@ -115,7 +115,7 @@ static void the_same_input_gives_the_same_bytes_for_any_number_of_threads(void *
         assert_ok(studio_open(&mine, &e));
         model *m[2] = {make_model(mine, &s, 180), make_model(mine, &o, 30)};
         layer l[2] = {layer_default(m[0], MATERIAL_SKIN), layer_default(m[1], MATERIAL_BONE)};
-        assert_ok(picture_bake(mine, l, 2, 48, &e));
+        assert_ok(picture_bake(l, 2, 48, &e));
         picture p = {.layers = l, .layer_count = 2, .view = front(100)};
         picture_style style = small_style();
         image im = {0};
@@ -220,7 +220,7 @@ static void hollows_are_darker_after_baking(void **state)
     camera c = front(100);
     image before = draw(l, 1, &c), after;
     err e = {0};
-    assert_ok(picture_bake(the_studio, l, 2, 96, &e));
+    assert_ok(picture_bake(l, 2, 96, &e));
     after = draw(l, 1, &c);
     int under_roof = image_pixel(&before, 80, 66)[1] - image_pixel(&after, 80, 66)[1];
     int open_side = image_pixel(&before, 80, 136)[1] - image_pixel(&after, 80, 136)[1];
@@ -246,7 +246,8 @@ static void the_map_shows_its_ends_and_no_data_is_grey(void **state)
     l.high = 5;
     uint8_t seen[3][3];
     for (int k = 0; k < 3; k++) {
-        for (int v = 0; v < 8; v++) value[v] = k == 0 ? -1 : k == 1 ? 7 : (double)NAN; /* beyond the ends: the ends */
+        for (int v = 0; v < 8; v++)
+            value[v] = k == 0 ? -1 : k == 1 ? 7 : (double)NAN; /* beyond the ends: the ends */
         image im = draw(&l, 1, &c);
         memcpy(seen[k], image_pixel(&im, 80, 100), 3);
         image_free(&im);
@@ -377,9 +378,6 @@ static void refuses_what_cannot_be_drawn(void **state)
     style.width = 8;
     assert_refused(picture_render(the_studio, &p, &style, &im, NULL, &e), ERR_USAGE);
     style = small_style();
-    style.supersample = 4;
-    assert_refused(picture_render(the_studio, &p, &style, &im, NULL, &e), ERR_USAGE);
-    style = small_style();
     l.opacity = 0;
     assert_refused(picture_render(the_studio, &p, &style, &im, NULL, &e), ERR_USAGE);
     l.opacity = 1;
@@ -388,7 +386,7 @@ static void refuses_what_cannot_be_drawn(void **state)
     l.low = l.high = 1;
     assert_refused(picture_render(the_studio, &p, &style, &im, NULL, &e), ERR_USAGE);
     assert_null(im.rgba);
-    assert_refused(picture_bake(the_studio, &l, 1, 3, &e), ERR_USAGE);
+    assert_refused(picture_bake(&l, 1, 3, &e), ERR_USAGE);
     s.tri[5] = 99;
     model_params params = model_params_bone();
     assert_refused(model_create(the_studio, &s, &params, &none, &e), ERR_GEOMETRY);

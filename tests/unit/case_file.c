@@ -57,10 +57,9 @@ static void absent_fields_take_the_defaults_of_their_stage(void **state)
     char want[128];
     snprintf(want, sizeof want, "%s/skull.ply", folder);
     assert_string_equal(c.surface[CASE_SKULL], want);
-    for (int i = 0; i < BOUND_COUNT; i++) {
-        assert_near(c.bounds[i][0], bound_default[i].low, 0);
-        assert_near(c.bounds[i][1], bound_default[i].high, 0);
-        assert_false(c.bound_from_case[i]);
+    for (int i = 0; i < LIMIT_COUNT; i++) {
+        assert_memory_equal(&c.limits[i], &limit_default[i].range, sizeof c.limits[i]);
+        assert_false(c.limit_from_case[i]);
     }
 }
 
@@ -90,7 +89,7 @@ static void given_fields_arrive_where_they_belong(void **state)
         "{" NEEDED ", \"name\": \"A B\", \"frame\": \"RAS\", \"//\": [1], \"osteotomies\": [\"bsso\"],\n"
         "\"tissue\": {\"// why\": \"thin\", \"element_mm\": 2.5, \"poisson\": 0.3}, \"cuts\": {\"kerf_mm\": "
         "1},\n"
-        "\"bounds\": {\"chin_advance_mm\": [-1, 2]}}");
+        "\"limits\": {\"chin_advance_mm\": {\"stop\": [-1, 2]}}}");
     char path[128];
     snprintf(path, sizeof path, "%s/case.json", folder);
     assert_ok(case_file_load(path, &c, &e));
@@ -100,10 +99,10 @@ static void given_fields_arrive_where_they_belong(void **state)
     assert_near(c.tissue.element_mm, 2.5, 0);
     assert_near(c.material.poisson, 0.3, 0);
     assert_near(c.cuts.kerf_mm, 1, 0);
-    assert_near(c.bounds[BOUND_CHIN_ADVANCE][0], -1, 0);
-    assert_near(c.bounds[BOUND_CHIN_ADVANCE][1], 2, 0);
-    assert_true(c.bound_from_case[BOUND_CHIN_ADVANCE]);
-    assert_false(c.bound_from_case[BOUND_CHIN_LIFT]);
+    assert_near(c.limits[LIMIT_CHIN_ADVANCE].stop[0], -1, 0);
+    assert_near(c.limits[LIMIT_CHIN_ADVANCE].stop[1], 2, 0);
+    assert_true(c.limit_from_case[LIMIT_CHIN_ADVANCE]);
+    assert_false(c.limit_from_case[LIMIT_CHIN_LIFT]);
     assert_true(case_file_frees(&c, SEGMENT_DISTAL));
     assert_true(case_file_frees(&c, SEGMENT_PROXIMAL_LEFT));
     assert_false(case_file_frees(&c, SEGMENT_MAXILLA));
@@ -135,12 +134,12 @@ static void everything_wrong_is_named_by_line(void **state)
     err e = {0};
     put("case.json",
         "{" NEEDED
-        ",\n\"bounds\": {\"chin_lift_mm\": [5, -5]},\n\"tissue\": {\"poisson\": 1},\n\"frame\": 3}");
+        ",\n\"limits\": {\"chin_lift_mm\": {\"fine\": [5, -5]}},\n\"tissue\": {\"poisson\": 1},\n\"frame\": 3}");
     assert_false(case_file_read(folder, &c, &issues));
     assert_int_equal(issue_count(&issues, ISSUE_ERROR), 3);
     for (int i = 0; i < 3; i++) assert_int_equal(issues.item[i].line, i + 2);
     assert_false(issue_none_is_error(&issues, &e));
-    assert_non_null(strstr(e.text, "case.json:2: bounds.chin_lift_mm: "));
+    assert_non_null(strstr(e.text, "case.json:2: limits.chin_lift_mm.fine: "));
     assert_near(c.material.poisson, 0.45, 0); /* a wrong field keeps its default */
     issue_list_free(&issues);
 }

@@ -82,6 +82,20 @@ static void measures_of_constructed_points_have_their_constructed_values(void **
     assert_near(value_of(v, "ANS-PNS")->value, 50 * c, 1e-9);
     assert_near(value_of(v, "N-ANS")->value, 50 * c - 5 * s, 1e-9);
     assert_near(value_of(v, "PNS-N")->value, 50 * c + 45 * s, 1e-9);
+    assert_near(value_of(v, "SN-PP")->value, 0, 1e-9);
+    assert_near(value_of(v, "PP-MP")->value, 30, 1e-9);
+    assert_near(value_of(v, "OP-FH")->value, 0, 1e-9);
+    assert_near(value_of(v, "interincisal")->value, 180 - 20 - 30, 1e-9); /* 20 and 30 degrees off the vertical */
+    assert_near(value_of(v, "N-A (HP)")->value, -60 * cos(a) * c + 60 * sin(a) * s, 1e-9);
+    assert_near(value_of(v, "N-B (HP)")->value, -100 * cos(b) * c + 100 * sin(b) * s, 1e-9);
+    assert_near(value_of(v, "N-Pg (HP)")->value, -6 * c + 110 * s, 1e-9);
+    assert_near(value_of(v, "U1-NF")->value, 10 + 20 * cos(pi / 9), 1e-9);
+    assert_near(value_of(v, "U6-NF")->value, 28, 1e-9);
+    /* Go-Gn runs 40 forward and 34 down: unit vector (40, -34) / 52.497619 */
+    assert_near(value_of(v, "B-Pg")->value,
+                ((64 - 70 + 100 * cos(b)) * 40 + (110 - 100 * sin(b)) * 34) / 52.49761899362675, 1e-9);
+    assert_near(value_of(v, "L1-MP")->value, (3 * 40 + 43 * 34) / 52.49761899362675, 1e-9);
+    assert_near(value_of(v, "L6-MP")->value, (2 * 40 + 15 * 34) / 52.49761899362675, 1e-9);
     put_pair(&l, "Ar", 8, -10);
     ceph_evaluate(&l, &f, v);
     assert_near(value_of(v, "Ar-Go")->value, hypot(12, 70), 1e-9);
@@ -116,6 +130,20 @@ static void profile_measures_carry_their_signs(void **state)
     /* the E-line runs 30 forward over 80 up: at Ls 45 above Pg' it stands at 96.875 */
     assert_near(value_of(v, "Ls to E-line")->value, (94 - 96.875) * 80 / hypot(30, 80), 1e-9);
     assert_true(isnan(value_of(v, "interlabial gap")->value));
+    put(&l, "N'", 82, 20);
+    put(&l, "Pog", 68, -79);
+    put(&l, "Me", 60, -87);
+    ceph_evaluate(&l, &f, v);
+    assert_near(value_of(v, "chin thickness")->value, 12, 1e-12);
+    assert_near(value_of(v, "menton thickness")->value, 8, 1e-12);
+    assert_near(value_of(v, "facial length")->value, 115, 1e-12);
+    assert_near(value_of(v, "lower third")->value, 75, 1e-12);
+    assert_near(value_of(v, "lower face share")->value, 100 * 75 / 135.0, 1e-9);
+    assert_near(value_of(v, "upper lip share")->value, 100 * 20 / 75.0, 1e-9);
+    /* from N', G' lies 2 back and 20 up, Pn 28 forward and 20 down */
+    assert_near(value_of(v, "nasofrontal angle")->value, 180 - (atan2(28, 20) - atan2(2, 20)) * 180 / pi, 1e-9);
+    /* from B', the lip lies 5 forward and 15 up, the chin 6 back and 20 down */
+    assert_near(value_of(v, "mentolabial angle")->value, 180 - (atan2(5, 15) - atan2(6, 20)) * 180 / pi, 1e-9);
     put(&l, "Sn", 70, -20); /* behind G'-Pg': concave */
     ceph_evaluate(&l, &f, v);
     assert_near(value_of(v, "facial convexity")->value, -(180 - 2 * atan(6) * 180 / pi), 1e-9);

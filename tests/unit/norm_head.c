@@ -136,6 +136,30 @@ static void class_three_has_the_lower_incisors_in_front(void **state)
     assert_true(head.obtained[SNB_DEG] > head.obtained[SNA_DEG]);
 }
 
+/* Behind the incisors no lower tooth reaches into an upper one, and most touch one. */
+static void side_teeth_are_in_occlusion(void **state)
+{
+    (void)state;
+    err e = {0};
+    nearest *upper;
+    assert_ok(nearest_create(&head.upper_teeth, &upper, &e));
+    int32_t size = head.lower_teeth.vertex_count / (2 * TEETH_PER_SIDE), touching = 0;
+    for (int32_t number = 0; number < 2 * TEETH_PER_SIDE; number++) {
+        if (number % TEETH_PER_SIDE < 2) continue;
+        double least = HUGE_VAL;
+        for (int32_t i = number * size; i < (number + 1) * size; i++) {
+            const double *p = head.lower_teeth.xyz + 3 * i;
+            double d = nearest_point(upper, p, NULL, NULL);
+            if (d < 2 && nearest_inside(upper, p)) d = -d;
+            least = fmin(least, d);
+        }
+        assert_true(least > -0.05);
+        touching += least < 0.2;
+    }
+    nearest_destroy(&upper);
+    assert_true(touching >= 7); /* of 10 */
+}
+
 static void the_same_seed_gives_the_same_measures_and_another_seed_others(void **state)
 {
     (void)state;
@@ -227,6 +251,7 @@ int main(void)
         cmocka_unit_test(frankfort_plane_is_level),
         cmocka_unit_test(bone_and_teeth_stay_under_the_skin),
         cmocka_unit_test(class_three_has_the_lower_incisors_in_front),
+        cmocka_unit_test(side_teeth_are_in_occlusion),
         cmocka_unit_test(the_same_seed_gives_the_same_measures_and_another_seed_others),
         cmocka_unit_test(depths_that_go_together_are_drawn_together),
         cmocka_unit_test(warps_take_points_exactly_and_keep_affine_maps),

@@ -74,9 +74,9 @@ static void the_short_form_moves_along_the_head(void **state)
     assert_near(d[1], 4, 1e-12);
     assert_true(rigid_is_identity(&m.move[SEGMENT_CRANIUM]));
     assert_true(rigid_is_identity(&m.move[SEGMENT_PROXIMAL_LEFT]));
-    assert_near(m.measure[BOUND_MAXILLA_ADVANCE], 5, 1e-9);
-    assert_near(m.measure[BOUND_MAXILLA_IMPACTION], 2, 1e-9);
-    assert_near(m.measure[BOUND_MANDIBLE_ADVANCE], -4, 1e-9);
+    assert_near(m.measure[LIMIT_MAXILLA_ADVANCE], 5, 1e-9);
+    assert_near(m.measure[LIMIT_MAXILLA_IMPACTION], 2, 1e-9);
+    assert_near(m.measure[LIMIT_MANDIBLE_ADVANCE], -4, 1e-9);
 }
 
 static void the_short_form_follows_a_tilted_head(void **state)
@@ -103,7 +103,7 @@ static void the_chin_rides_on_the_distal_segment(void **state)
     plan_moves m = moves_of("{\"gnathos\": 1, \"mandible_advance_mm\": 3, \"chin_advance_mm\": 4}");
     moved(&m, SEGMENT_CHIN, "Pog", d);
     assert_near(d[1], -7, 1e-12);
-    assert_near(m.measure[BOUND_CHIN_ADVANCE], 4, 1e-9);
+    assert_near(m.measure[LIMIT_CHIN_ADVANCE], 4, 1e-9);
     m = moves_of("{\"gnathos\": 1, \"mandible_advance_mm\": 3}");
     moved(&m, SEGMENT_CHIN, "Pog", d);
     assert_near(d[1], -3, 1e-12);
@@ -132,7 +132,7 @@ static void angles_turn_as_the_help_says(void **state)
         double arm = vec_norm(turn[i].from);
         assert_near(to[turn[i].axis] - turn[i].from[turn[i].axis], turn[i].sign * arm * sin(M_PI / 180),
                     1e-9);
-        assert_near(m.measure[BOUND_MAXILLA_TURN], 1, 1e-9);
+        assert_near(m.measure[LIMIT_MAXILLA_TURN], 1, 1e-9);
     }
 }
 
@@ -178,14 +178,14 @@ static void matrix_and_transform_file_say_the_same(void **state)
     for (int i = 0; i < 3; i++) assert_near(by_file.move[SEGMENT_DISTAL].t[i], a.t[i], 1e-9);
 }
 
-static void a_bound_holds_exactly_at_its_end(void **state)
+static void a_limit_holds_exactly_at_its_end(void **state)
 {
     (void)state;
     err e = {0};
     plan_file p;
     plan_moves m;
-    (void)moves_of("{\"gnathos\": 1, \"maxilla_advance_mm\": 10, \"maxilla_impaction_mm\": -5}");
-    put("{\"gnathos\": 1, \"maxilla_advance_mm\": 10.001}");
+    (void)moves_of("{\"gnathos\": 1, \"maxilla_advance_mm\": 8, \"maxilla_impaction_mm\": -5}");
+    put("{\"gnathos\": 1, \"maxilla_advance_mm\": 8.001}");
     assert_refused(plan_moves_load(path, &patient, &head, &p, &m, &e), ERR_INFEASIBLE);
 }
 
@@ -209,7 +209,7 @@ static void a_long_breach_is_measured_at_the_segments_point(void **state)
     err e = {0};
     plan_file p;
     plan_moves m;
-    /* Turned about the porions, the incisors swing: 4 degrees over 90 mm is 6 mm down, the bound is 5. */
+    /* Turned about the porions, the incisors swing: 4 degrees over 90 mm is 6 mm down, the limit is 5. */
     put("{\"gnathos\": 1, \"segments\": {\"maxilla\": {\"pitch_deg\": 4, \"pivot\": [0, 10, 0]}}}");
     assert_false(plan_moves_load(path, &patient, &head, &p, &m, &e));
     assert_int_equal(e.code, ERR_INFEASIBLE);
@@ -225,7 +225,7 @@ int main(void)
         cmocka_unit_test(angles_turn_as_the_help_says),
         cmocka_unit_test(a_pivot_stays_but_for_the_translation),
         cmocka_unit_test(matrix_and_transform_file_say_the_same),
-        cmocka_unit_test(a_bound_holds_exactly_at_its_end),
+        cmocka_unit_test(a_limit_holds_exactly_at_its_end),
         cmocka_unit_test(an_override_turns_a_breach_into_a_warning),
         cmocka_unit_test(a_long_breach_is_measured_at_the_segments_point),
     };

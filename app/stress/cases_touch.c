@@ -1,0 +1,46 @@
+/* Tissue against bone and lip against lip. slack_mm: how much deeper than the contact's own limit a node may lie under
+ * the collider's true height, for the smoothing that contact.h states (a share of the sample spacing on curved bone). */
+#include "app/stress/stress.h"
+
+#define OVER .cells = {8, 8, 4}, .size = {32, 32, 16}
+#define LIPS(label, text, gap, ...) \
+    {.name = "lips/" label, .what = text, .body = specimen_lips, .cells = {6, 6, 6}, .size = {30, 24, 24}, .p = gap, __VA_ARGS__}
+
+static const stress_case cases[] = {
+    {.name = "plane/press", .what = "pressed onto a plane by 3 mm", .body = specimen_on_plane, OVER, .move = {0, 0, -3},
+     .check = CHECK_ABOVE},
+    {.name = "plane/press_half", .what = "pressed to half its height", .body = specimen_on_plane, OVER, .move = {0, 0, -8},
+     .check = CHECK_ABOVE, .want = MAY_GIVE_UP},
+    {.name = "plane/lift", .what = "lifted off", .body = specimen_on_plane, OVER, .move = {0, 0, 5}, .check = CHECK_RIGID},
+    {.name = "plane/slide", .what = "pressed and dragged 20 mm along", .body = specimen_on_plane, OVER, .move = {6, 0, -2},
+     .check = CHECK_ABOVE},
+    {.name = "plane/tilt", .what = "turned onto its edge by 20 degrees", .body = specimen_on_plane, OVER, .turn_deg = 20,
+     .axis = {0, 1, 0}, .check = CHECK_ABOVE},
+    {.name = "plane/gap", .what = "closes a gap of 1 mm and presses 2", .body = specimen_on_plane, OVER, .p = 1,
+     .move = {0, 0, -3}, .check = CHECK_ABOVE, .heavy = true},
+    {.name = "plane/still", .what = "rests, nothing moves", .body = specimen_on_plane, OVER, .check = CHECK_STILL},
+    {.name = "plane/deep_start", .what = "starts 6 mm deep in the bone", .body = specimen_on_plane, OVER, .move = {0, 0, -2},
+     .start = START_SUNK, .check = CHECK_ABOVE},
+    {.name = "plane/0.4999", .what = "pressed, nearly incompressible", .body = specimen_on_plane, OVER, .poisson = 0.4999,
+     .move = {0, 0, -2}, .check = CHECK_ABOVE, .heavy = true},
+    {.name = "teeth/1", .what = "onto pyramids 1 mm high, 4 mm apart", .body = specimen_on_teeth, OVER, .p = 1,
+     .move = {0, 0, -2}, .check = CHECK_ABOVE, .slack_mm = 0.3, .heavy = true},
+    {.name = "teeth/4", .what = "onto pyramids 4 mm high, 4 mm apart", .body = specimen_on_teeth, OVER, .p = 4,
+     .move = {0, 0, -2}, .check = CHECK_ABOVE, .slack_mm = 1, .want = MAY_GIVE_UP},
+    {.name = "teeth/8", .what = "onto spikes 8 mm high, 4 mm apart", .body = specimen_on_teeth, OVER, .p = 8,
+     .move = {0, 0, -2}, .check = CHECK_ABOVE, .slack_mm = 1, .want = MAY_GIVE_UP,
+     .known = "slopes steeper than 75 degrees do not face the tissue and are not seen by the contact"},
+    {.name = "ball/20", .what = "over a ball of 20 mm radius by 3 mm", .body = specimen_on_ball, OVER, .p = 20,
+     .move = {0, 0, -3}, .check = CHECK_ABOVE, .slack_mm = 0.1, .want = MAY_GIVE_UP},
+    {.name = "rim/press", .what = "half of it has no bone under it", .body = specimen_on_rim, OVER, .move = {0, 0, -3},
+     .want = MAY_GIVE_UP},
+    LIPS("still", "two lips in touch, nothing moves", 0, .check = CHECK_STILL),
+    LIPS("press", "pressed together by 2 mm", 0, .move = {0, 0, -2}),
+    LIPS("near_parallel", "sheets 1 um apart, pressed by 2 mm", 1e-3, .move = {0, 0, -2}),
+    LIPS("part", "drawn apart by 5 mm", 0, .move = {0, 0, 5}),
+    LIPS("slide", "pressed by 1 mm, slid by 6 mm", 0, .move = {6, 0, -1}, .want = MAY_GIVE_UP),
+    LIPS("tilt", "turned by 10 degrees", 0, .turn_deg = 10, .axis = {1, 0, 0}),
+    LIPS("press_hard", "pressed together by 8 mm", 0, .move = {0, 0, -8}, .want = MAY_GIVE_UP),
+    LIPS("contact_0.4999", "pressed by 2 mm, nearly incompressible", 0, .move = {0, 0, -2}, .poisson = 0.4999),
+};
+const stress_family stress_touching = {cases, sizeof cases / sizeof *cases};

@@ -1,0 +1,211 @@
+/* The study as a table: Markdown, CSV, JSON. */
+#include "app/study/study.h"
+#include "geometry/mem.h"
+#include "geometry/write_whole.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const char *const group_text[GROUP_COUNT] = {"mesh",     "element", "tolerance",
+                                                    "material", "threads", "scene"};
+
+static void print_soonest(const study_table *t, double most_mm, bool p95, FILE *out)
+{
+    int i = study_soonest(t, most_mm, p95);
+    const char *measure = p95 ? "95 % of the moved skin" : "the mean of the moved skin";
+    if (i >= 0)
+        fprintf(out, "* %.2f mm for %s, the reference's own error included: **%s**, %.2f s.\n", most_mm,
+                measure, t->run[i].rung->name, t->run[i].result.wall_s);
+    else
+        fprintf(out, "* %.2f mm for %s, the reference's own error included: **no setting reaches it**.\n",
+                most_mm, measure);
+}
+
+static void print_orders(const study_table *t, FILE *out)
+{
+    const study_error *own = &t->error[study_default];
+    fprintf(out,
+            "Errors are distances of the predicted skin to that of \"%s\", over the %d skin vertices that "
+            "move by more "
+            "than 0.1 mm there. ",
+            study_rungs[study_reference].name, own->vertices);
+    if (isnan(t->order))
+        fprintf(out,
+                "\"%s\", halved and halved twice give no order, so the reference's own error is only known "
+                "to be about "
+                "its distance to the mesh that was halved, %.3f mm in the mean.\n",
+                study_rungs[study_family[0]].name, t->reference_error_mm);
+    else
+        fprintf(
+            out,
+            "\"%s\", halved and halved twice converge with order %.2f (in the mean); with it Richardson's "
+            "extrapolation of \"%s\" and its half leaves the reference itself off by %.3f mm in the mean.\n",
+            study_rungs[study_family[0]].name, t->order, study_rungs[study_default].name,
+            t->reference_error_mm);
+    fprintf(out,
+            "Slope of mean error over tet size: plain tets %.2f, averaged volume changes %.2f. Meshing anew "
+            "also moves "
+            "the surface and the attachments; halved tets show the discretisation alone.\n",
+            t->plain_slope, t->average_slope);
+    fprintf(out, "The case's own mesh is %.3f mm off in the mean, %.3f mm at 95 %%, %.2f mm at most.\n\n",
+            own->mean_mm, own->p95_mm, own->max_mm);
+}
+
+static void print_tubes(const study_table *t, FILE *out)
+{
+    fprintf(
+        out,
+        "\n## Against an exact answer\n\nA thick tube in plane strain, inner wall turned by 26 degrees (4.5 "
+        "mm), against its "
+        "radial equations: root mean square error of the nodes, mm; between meshes the observed order.\n\n"
+        "| Poisson | tets | 4 cells | | 8 cells | | 16 cells | unknowns, s of the last |\n"
+        "|---|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < STUDY_TUBES; i += 3) {
+        const study_tube *row = t->tube + i;
+        fprintf(out, "| %.2f | %s ", row->poisson, row->average ? "averaged" : "plain");
+        for (int k = 0; k < 3; k++) {
+            if (k) fprintf(out, "| %.2f ", log2(row[k - 1].error_mm / row[k].error_mm));
+            fprintf(out, "| %.4f ", row[k].error_mm);
+        }
+        fprintf(out, "| %lld, %.2f |\n", (long long)row[2].unknowns, row[2].wall_s);
+    }
+}
+
+void study_print(const study_table *t, FILE *out)
+{
+    fprintf(out, "# Error against run time: %s, %s\n\n", t->task->patient->name, t->plan_name);
+    print_orders(t, out);
+    for (int k = 0; k < 4; k++) print_soonest(t, k % 2 ? 0.02 : 0.1, k >= 2, out);
+    fprintf(out,
+            "\nWall and processor time are of the solve alone (ordering included) on %d cores; meshing is "
+            "once per mesh. "
+            "Rows of other materials, and of contact, differ by their question and not by an error.\n\n",
+            t->cores);
+    fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (contact) | factors | wall s | CPU s "
+                 "| order/assemble/factor/solve s "
+                 "| peak MB | mean mm | 95 %% mm | max mm | front |\n");
+    fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < t->count; i++) {
+        const study_result *r = &t->run[i].result;
+        fprintf(out, "| %s | %s | %s | ", group_text[study_rungs[i].group], study_rungs[i].name, r->text);
+        if (!r->solved) {
+            fprintf(out, "| | | | | | | %.0f | | | | |\n", r->peak_mb);
+            continue;
+        }
+        fprintf(out, "%d | %lld | %d (%d) | %d | %.2f | %.2f | %.2f/%.2f/%.2f/%.2f | %.0f | ", r->nodes,
+                (long long)r->unknowns, r->iterations, r->contact_iterations, r->factorisations, r->wall_s,
+                r->cpu_s, r->prepare_s, r->assemble_s, r->factor_s, r->solve_s, r->peak_mb);
+        if (i == study_reference)
+            fprintf(out, "reference | | | |\n");
+        else
+            fprintf(out, "%.4f | %.4f | %.3f | %s |\n", t->error[i].mean_mm, t->error[i].p95_mm,
+                    t->error[i].max_mm, t->best[i] ? "yes" : "");
+    }
+    print_tubes(t, out);
+}
+
+static json_t *number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+static json_t *row_json(const study_table *t, int i)
+{
+    const study_result *r = &t->run[i].result;
+    json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting",
+                          study_rungs[i].name, "outcome", r->text, "solved", r->solved, "front", t->best[i]);
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {{"nodes", r->nodes},
+                   {"tets", r->tets},
+                   {"unknowns", (double)r->unknowns},
+                   {"size_mm", r->size_mm},
+                   {"iterations", r->iterations},
+                   {"free_iterations", r->free_iterations},
+                   {"contact_iterations", r->contact_iterations},
+                   {"factorisations", r->factorisations},
+                   {"loads", r->loads},
+                   {"wall_s", r->wall_s},
+                   {"cpu_s", r->cpu_s},
+                   {"prepare_s", r->prepare_s},
+                   {"assemble_s", r->assemble_s},
+                   {"factor_s", r->factor_s},
+                   {"solve_s", r->solve_s},
+                   {"meshing_s", r->meshing_s > 0 ? r->meshing_s : (double)NAN},
+                   {"peak_MB", r->peak_mb},
+                   {"residual_mN", r->residual_mn},
+                   {"initial_residual_mN", r->initial_mn},
+                   {"min_J", r->min_j},
+                   {"inverted_tets", r->inverted},
+                   {"mean_error_mm", t->error[i].mean_mm},
+                   {"p95_error_mm", t->error[i].p95_mm},
+                   {"max_error_mm", t->error[i].max_mm}};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        json_object_set_new(o, numbers[k].name, number(numbers[k].value));
+    return o;
+}
+
+json_t *study_json(const study_table *t)
+{
+    json_t *rows = json_array();
+    for (int i = 0; i < t->count; i++) json_array_append_new(rows, row_json(t, i));
+    json_t *o = json_pack("{ss ss ss so}", "case", t->task->patient->name, "plan", t->plan_name, "reference",
+                          study_rungs[study_reference].name, "runs", rows);
+    json_t *tubes = json_array();
+    for (int i = 0; i < STUDY_TUBES; i++) {
+        const study_tube *row = &t->tube[i];
+        json_array_append_new(tubes,
+                              json_pack("{si sb so sI si so so}", "cells", row->cells, "averaged",
+                                        row->average, "poisson", number(row->poisson), "unknowns",
+                                        (json_int_t)row->unknowns, "iterations", row->iterations, "wall_s",
+                                        number(row->wall_s), "error_mm", number(row->error_mm)));
+    }
+    json_object_set_new(o, "tubes", tubes);
+    json_object_set_new(o, "reference_error_mm", number(t->reference_error_mm));
+    json_object_set_new(o, "order", number(t->order));
+    json_object_set_new(o, "plain_slope", number(t->plain_slope));
+    json_object_set_new(o, "average_slope", number(t->average_slope));
+    return o;
+}
+
+static void print_csv(const study_table *t, FILE *out)
+{
+    for (int i = -1; i < t->count; i++) {
+        json_t *row = row_json(t, i < 0 ? 0 : i), *value;
+        const char *key, *comma = "";
+        json_object_foreach(row, key, value)
+        {
+            fputs(comma, out);
+            comma = ",";
+            if (i < 0)
+                fputs(key, out);
+            else if (json_is_string(value))
+                fprintf(out, "\"%s\"", json_string_value(value));
+            else if (json_is_boolean(value))
+                fputs(json_is_true(value) ? "1" : "0", out);
+            else if (json_is_real(value))
+                fprintf(out, "%.9g", json_real_value(value));
+        }
+        fputc('\n', out);
+        json_decref(row);
+    }
+}
+
+bool study_write(const study_table *t, const char *folder, err *e)
+{
+    static const char *const names[2] = {"study.md", "study.csv"};
+    for (int k = 0; k < 2; k++) {
+        char path[FIELD_PATH_SIZE + 32];
+        whole_file f;
+        snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        if (!whole_file_open(path, &f, e)) return false;
+        if (k)
+            print_csv(t, f.stream);
+        else
+            study_print(t, f.stream);
+        if (!whole_file_close(&f, e)) return false;
+    }
+    return study_plot(t, folder, e);
+}

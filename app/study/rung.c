@@ -1,0 +1,259 @@
+/* One rung, solved in a child and kept. */
+#include "app/study/study.h"
+#include "app/child.h"
+#include "app/colliders.h"
+#include "app/plan_tissue.h"
+#include "app/pack_file.h"
+#include "geometry/mem.h"
+#include "geometry/parallel.h"
+#include "geometry/tissue_refine.h"
+#include "geometry/vec.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+typedef struct reply {
+    bool ok;
+    err e;
+} reply;
+
+typedef struct job {
+    const study_task *task;
+    const study_rung *rung;
+    const char *path;
+} job;
+
+static double now_s(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+bool study_task_key(study_task *t, err *e)
+{
+    char inputs[HASH_TEXT_SIZE];
+    content_hash *h = content_hash_start();
+    bool ok = prepared_hash(t->patient, inputs, e) && content_hash_file(h, "program", "/proc/self/exe", e);
+    content_hash_text(h, "case", ok ? inputs : "");
+    content_hash_number(h, "young", t->patient->material.young_kpa);
+    content_hash_number(h, "poisson", t->patient->material.poisson);
+    content_hash_number(h, "loads", t->load_steps);
+    content_hash_bytes(h, t->motion, sizeof t->motion);
+    content_hash_end(h, t->key);
+    return ok;
+}
+
+static void rung_path(const study_task *t, const study_rung *r, char *out, size_t size)
+{
+    snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d.pack", t->folder, t->name, r->coarsening,
+             r->refined, r->average ? "_avg" : "", r->rel_tol, r->model, r->poisson, r->threads,
+             r->contact ? "_contact" : "", r->load_steps);
+}
+
+static bool take_prepared(const study_task *t, const study_rung *r, prepared *p, double *meshing_s, err *e)
+{
+    case_file c = *t->patient;
+    char own[FIELD_PATH_SIZE];
+    snprintf(own, sizeof own, "%s/prepared", t->folder);
+    c.tissue.element_mm *= r->coarsening;
+    c.tissue.coarse_mm *= r->coarsening;
+    double begin = now_s(CLOCK_MONOTONIC);
+    if (!prepared_get(&c, r->coarsening == 1 ? t->cache : own, NULL, NULL, p, e)) return false;
+    *meshing_s = p->reused ? 0 : now_s(CLOCK_MONOTONIC) - begin;
+    for (int k = 0; k < r->refined; k++) {
+        tissue fine;
+        embedding skin;
+        tissue_refine(&p->tissue, &fine);
+        embedding_refine(&p->skin_on_tissue, &p->tissue.mesh, &fine.mesh, &skin);
+        tissue_free(&p->tissue);
+        embedding_free(&p->skin_on_tissue);
+        p->tissue = fine;
+        p->skin_on_tissue = skin;
+    }
+    return true;
+}
+
+static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q,
+                  study_result *out, err *e)
+{
+    plan_tissue flesh;
+    if (!plan_tissue_make(t->patient, p, t->motion, &flesh, e)) return false;
+    if (r->average) { /* one material only */
+        flesh.mesh.region = p->tissue.mesh.region;
+        flesh.material_count = 1;
+    }
+    struct material *m = &flesh.material[0].material;
+    if (!material_make((material_model)r->model, m->young_kpa, r->poisson > 0 ? r->poisson : m->poisson, m, e)) {
+        plan_tissue_free(&flesh);
+        return false;
+    }
+    equilibrium_problem problem = {.mesh = &flesh.mesh,
+                                   .attach = &flesh.attach,
+                                   .materials = flesh.material,
+                                   .material_count = flesh.material_count,
+                                   .average_volume = r->average};
+    memcpy(problem.motion, t->motion, sizeof t->motion);
+    solve_params params = solve_params_default();
+    if (r->rel_tol > 0) params.rel_tol = r->rel_tol;
+    params.load_steps = r->load_steps > 0 ? r->load_steps : t->load_steps;
+    if (r->threads > 0) parallel_set_threads(r->threads);
+    colliders touch = {0};
+    if (r->contact && !colliders_make(p, &flesh.attach, &touch, e)) {
+        plan_tissue_free(&flesh);
+        return false;
+    }
+    if (r->contact) problem.contact = &touch.setup;
+    double wall = now_s(CLOCK_MONOTONIC), cpu = now_s(CLOCK_PROCESS_CPUTIME_ID);
+    bool ok = equilibrium_solve(&problem, &params, q, e);
+    out->wall_s = now_s(CLOCK_MONOTONIC) - wall;
+    out->cpu_s = now_s(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    colliders_free(&touch);
+    plan_tissue_free(&flesh);
+    return ok;
+}
+
+static void describe(const prepared *p, const equilibrium *q, study_result *r)
+{
+    tetmesh_quality quality = tetmesh_measure(&p->tissue.mesh);
+    r->solved = q->outcome == SOLVED;
+    snprintf(r->text, sizeof r->text, "%s", solve_outcome_text(q->outcome));
+    r->nodes = p->tissue.mesh.vertex_count;
+    r->tets = p->tissue.mesh.tet_count;
+    r->unknowns = q->unknown_count;
+    r->size_mm = cbrt(quality.volume_mm3 / r->tets);
+    r->iterations = q->iterations;
+    r->free_iterations = q->contact.free_iterations;
+    r->contact_iterations = q->contact.contact_iterations;
+    r->factorisations = q->factorisations;
+    r->loads = q->loads;
+    r->prepare_s = q->prepare_s;
+    r->assemble_s = q->assemble_s;
+    r->factor_s = q->factor_s;
+    r->solve_s = q->solve_s;
+    r->residual_mn = q->residual_mn;
+    r->initial_mn = q->reference_mn;
+    r->min_j = q->extremes.min_j;
+    r->inverted = q->extremes.inverted_count;
+}
+
+static bool keep(const job *j, const prepared *p, const equilibrium *q, const study_result *r, err *e)
+{
+    pack_file f = {0};
+    pack_put(&f, "key", j->task->key, sizeof j->task->key);
+    pack_put(&f, "result", r, sizeof *r);
+    bool ok = true;
+    if (r->solved) {
+        size_t n = 3 * (size_t)q->node_count, skin = 3 * (size_t)p->skin.vertex_count;
+        double *u = NEW_ARRAY(double, n), *moved = NEW_ARRAY(double, skin);
+        for (size_t i = 0; i < n; i++) u[i] = q->xyz[i] - p->tissue.mesh.xyz[i];
+        embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, moved);
+        for (size_t i = 0; i < skin; i++) moved[i] -= p->skin.xyz[i];
+        plan_moves moves = {0};
+        memcpy(moves.move, j->task->motion, sizeof moves.move);
+        carried_landmarks points;
+        ok = carry_landmarks(p, &moves, u, &points, e);
+        double *point = NEW_ARRAY(double, 3 * (size_t)p->points.count);
+        for (int32_t i = 0; ok && i < p->points.count; i++)
+            vec_sub(points.after.point[i].xyz, p->points.point[i].xyz, point + 3 * (size_t)i);
+        if (ok) carried_landmarks_free(&points);
+        pack_put(&f, "skin", moved, skin * sizeof *moved);
+        pack_put(&f, "points", point, 3 * (size_t)p->points.count * sizeof *point);
+        free(u);
+        free(moved);
+        free(point);
+    }
+    ok = ok && pack_write(&f, j->path, e);
+    pack_free(&f);
+    return ok;
+}
+
+static void work(void *context, void *result)
+{
+    const job *j = context;
+    reply own = {0};
+    study_result r = {0};
+    prepared p = {0};
+    equilibrium q = {0};
+    own.ok = take_prepared(j->task, j->rung, &p, &r.meshing_s, &own.e);
+    if (own.ok && !solve(j->task, j->rung, &p, &q, &r, &own.e)) { /* a rung that this case has not: say so */
+        snprintf(r.text, sizeof r.text, "%.*s", (int)sizeof r.text - 1, own.e.text);
+        own.e = (err){0};
+    } else if (own.ok) {
+        describe(&p, &q, &r);
+    }
+    if (own.ok && app_interrupted()) own.ok = err_set(&own.e, ERR_INTERRUPTED, "interrupted");
+    own.ok = own.ok && keep(j, &p, &q, &r, &own.e);
+    equilibrium_free(&q);
+    prepared_free(&p);
+    memcpy(result, &own, sizeof own);
+}
+
+static bool read_run(const char *path, const char *key, study_run *out)
+{
+    pack_file f;
+    err e = {0};
+    size_t one = 0, n = 0;
+    study_run r = *out;
+    if (!pack_read(path, &f, &e)) return false;
+    char *stored = pack_take(&f, "key", HASH_TEXT_SIZE, &one);
+    study_result *result = pack_take(&f, "result", sizeof *result, &one);
+    bool ok = stored && result && one == 1 && !memcmp(stored, key, HASH_TEXT_SIZE);
+    if (ok) {
+        r.result = *result;
+        r.skin_mm = pack_take(&f, "skin", 3 * sizeof(double), &n);
+        r.skin_count = (int32_t)n;
+        r.point_mm = pack_take(&f, "points", 3 * sizeof(double), &n);
+        r.point_count = (int32_t)n;
+        ok = !r.result.solved || (r.skin_mm && r.point_mm);
+    }
+    free(stored);
+    free(result);
+    pack_free(&f);
+    if (ok) *out = r;
+    return ok;
+}
+
+/* Once more, with what only the parent knows. */
+static bool add_peak(const char *path, double peak_mb, err *e)
+{
+    pack_file f;
+    if (!pack_read(path, &f, e)) return false;
+    for (int i = 0; i < f.count; i++)
+        if (!strcmp(f.entry[i].name, "result")) ((study_result *)f.entry[i].bytes)->peak_mb = peak_mb;
+    bool ok = pack_write(&f, path, e);
+    pack_free(&f);
+    return ok;
+}
+
+bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool *fresh, err *e)
+{
+    enum { LIMIT_CPU_S = 3600 };
+    char path[FIELD_PATH_SIZE + 160];
+    rung_path(t, rung, path, sizeof path);
+    *out = (study_run){.rung = rung};
+    *fresh = false;
+    if (read_run(path, t->key, out)) return true;
+    job j = {t, rung, path};
+    reply r = {0};
+    child_use use;
+    child_end end = child_run(work, &j, &r, sizeof r, LIMIT_CPU_S, &use);
+    *fresh = true;
+    if (end == CHILD_INTERRUPTED || app_interrupted())
+        return err_set(e, ERR_INTERRUPTED,
+                       "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
+    if (end != CHILD_DONE) { /* not kept: another time it may come through */
+        snprintf(out->result.text, sizeof out->result.text, "%s",
+                 end == CHILD_LATE ? "no end in an hour" : "crashed (out of memory?)");
+        out->result.peak_mb = use.peak_mb;
+        return true;
+    }
+    if (!r.ok) {
+        *e = r.e;
+        return false;
+    }
+    if (!add_peak(path, use.peak_mb, e)) return false;
+    return read_run(path, t->key, out) || err_set(e, ERR_INTERNAL, "%s: cannot be read back", path);
+}

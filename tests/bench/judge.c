@@ -1,0 +1,99 @@
+/* bench_judge CASE [COUNT]: plans judged per second on a prepared case, at random within the limits of moves.
+ * Prints how many come out at each level, so that runs can be compared. */
+#include "app/judge.h"
+#include "geometry/mem.h"
+#include "geometry/parallel.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+typedef struct work {
+    const judge *j;
+    const plan_moves *moves;
+    limit_level *worst;
+    int *reason;
+} work;
+
+static void run(int64_t begin, int64_t end, void *context)
+{
+    work *w = context;
+    judgement out;
+    for (int64_t i = begin; i < end; i++) {
+        judge_plan(w->j, &w->moves[i], &out);
+        w->worst[i] = out.worst;
+        w->reason[i] = out.reason >= 0 ? (int)out.finding[out.reason].limit : -1;
+    }
+}
+
+static double seconds(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static unsigned seed = 1;
+
+static double draw(double low, double high)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return low + (high - low) * (seed >> 8) / 16777216.0;
+}
+
+int main(int argc, char **argv)
+{
+    err e = {0};
+    case_file c;
+    prepared p = {0};
+    judge *j;
+    int count = argc > 2 ? atoi(argv[2]) : 200;
+    if (argc < 2 || count < 1 || !case_file_load(argv[1], &c, &e) || !prepared_get(&c, NULL, NULL, NULL, &p, &e)) {
+        fprintf(stderr, "bench_judge CASE [COUNT]: %s\n", e.text);
+        return 1;
+    }
+    double start = seconds(CLOCK_MONOTONIC);
+    if (!judge_create(&c, &p, &j, &e)) {
+        fprintf(stderr, "%s\n", e.text);
+        return 1;
+    }
+    double made = seconds(CLOCK_MONOTONIC), cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    work w = {.j = j, .worst = NEW_ARRAY(limit_level, count), .reason = NEW_ARRAY(int, count)};
+    plan_moves *moves = NEW_ARRAY(plan_moves, count);
+    for (int i = 0; i < count; i++) {
+        issue_list ignored = {0};
+        plan_file plan = plan_file_default();
+        const segment_id long_form[2] = {SEGMENT_MAXILLA, SEGMENT_DISTAL};
+        for (int k = 0; k < 2; k++) {
+            plan_segment *s = &plan.segment[long_form[k]];
+            *s = (plan_segment){.form = FORM_ANGLES, .pitch_deg = draw(-3, 3), .yaw_deg = draw(-3, 3)};
+            s->translate_mm[0] = draw(-3, 3);
+            s->translate_mm[1] = k ? draw(-12, 10) : draw(-8, 5);
+            s->translate_mm[2] = draw(-4, 5);
+        }
+        plan.segment[SEGMENT_CHIN].form = FORM_SHORT;
+        plan.chin_advance_mm = draw(-5, 10);
+        if (!plan_moves_set(&plan, &c, &p.points, &moves[i], &ignored)) return 1;
+        issue_list_free(&ignored);
+    }
+    w.moves = moves;
+    parallel_for(count, 4, run, &w);
+    double wall = seconds(CLOCK_MONOTONIC) - made;
+    cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    int level[4] = {0}, reason[LIMIT_COUNT] = {0};
+    for (int i = 0; i < count; i++) {
+        level[w.worst[i]]++;
+        if (w.reason[i] >= 0) reason[w.reason[i]]++;
+    }
+    printf("%s: made in %.2f s; %d plans on %d threads in %.2f s: %.0f per second, %.2f ms of processor each\n", c.name,
+           made - start, count, parallel_threads(), wall, count / wall, 1e3 * cpu / count);
+    printf("fine %d, caution %d, stop %d; decided by", level[LIMIT_FINE], level[LIMIT_CAUTION], level[LIMIT_STOP]);
+    for (int l = 0; l < LIMIT_COUNT; l++)
+        if (reason[l]) printf(" %s %d", limit_default[l].name, reason[l]);
+    printf("\n");
+    free(moves);
+    free(w.worst);
+    free(w.reason);
+    judge_free(&j);
+    prepared_free(&p);
+    return 0;
+}

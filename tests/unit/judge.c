@@ -1,0 +1,207 @@
+/* Plans judged on a head of blocks, where every bound is known: the right limit decides, within 0.05 mm. */
+#include "tests/check.h"
+#include "tests/unit/bodies.h"
+#include "app/judge.h"
+#include "geometry/vec.h"
+
+static case_file patient;
+static prepared head;
+static judge *all;
+
+static const double pi = 3.14159265358979323846;
+
+/* Skull above, maxilla below it with half a millimetre of saw between, mandible 0.8 mm below the upper "teeth". The
+ * mandible ends 10 mm behind the maxilla's front, so that a tilt is measured from below. */
+static int make_head(void **state)
+{
+    (void)state;
+    err e = {0};
+    const struct {
+        const char *label;
+        double x[3];
+    } points[] = {{"Po_L", {60, 10, 30}},     {"Po_R", {-60, 10, 30}},    {"Or_L", {30, -80, 30}}, {"Or_R", {-30, -80, 30}},
+                  {"N", {0, -90, 40}},        {"U1", {0, -90, -20}},      {"U6_L", {20, -50, -20}}, {"U6_R", {-20, -50, -20}},
+                  {"U3_L", {15, -80, -20}},   {"U3_R", {-15, -80, -20}},  {"L1", {0, -80, -20.8}}, {"L6_L", {20, -50, -20.8}},
+                  {"L6_R", {-20, -50, -20.8}}, {"PR_L", {12, -88, 0}},    {"PR_R", {-12, -88, 0}}, {"ZB_L", {28, -60, 0}},
+                  {"ZB_R", {-28, -60, 0}},    {"Me", {0, -80, -60}}};
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++) landmarks_set(&head.points, points[i].label, points[i].x);
+    patient = case_file_default();
+    assert_ok(head_frame_from_landmarks(&head.points, &head.frame, &e));
+    head.segments.part[SEGMENT_CRANIUM] = body_box(-30, -90, 0.25, 30, -20, 40);
+    head.segments.part[SEGMENT_MAXILLA] = body_box(-30, -90, -20, 30, -20, -0.25);
+    head.segments.part[SEGMENT_DISTAL] = body_box(-30, -80, -60, 30, -20, -20.8);
+    head.segments.kerf = body_box(-30, -90, -0.25, 30, -20, 0.25);
+    assert_ok(judge_create(&patient, &head, &all, &e));
+    return 0;
+}
+
+static int drop_head(void **state)
+{
+    (void)state;
+    judge_free(&all);
+    segments_free(&head.segments);
+    landmarks_free(&head.points);
+    return 0;
+}
+
+static plan_file still(void)
+{
+    plan_file p = plan_file_default();
+    p.segment[SEGMENT_MAXILLA].form = p.segment[SEGMENT_DISTAL].form = FORM_ANGLES;
+    return p;
+}
+
+static void judged(const plan_file *p, judgement *out)
+{
+    plan_moves m;
+    issue_list issues = {0};
+    assert_true(plan_moves_set(p, &patient, &head.points, &m, &issues));
+    issue_list_free(&issues);
+    judge_plan(all, &m, out);
+}
+
+static const finding *find(const judgement *j, limit_id id)
+{
+    for (int i = 0; i < j->count; i++)
+        if (j->finding[i].limit == id) return &j->finding[i];
+    fail();
+    return NULL;
+}
+
+/* The amount at which `set` is first stopped, and by what. */
+static double bound(void (*set)(plan_file *, double), double low, double high, limit_id *by)
+{
+    judgement j;
+    while (high - low > 1e-3) {
+        double middle = (low + high) / 2;
+        plan_file p = still();
+        set(&p, middle);
+        judged(&p, &j);
+        if (j.worst == LIMIT_STOP) {
+            high = middle;
+            *by = j.finding[j.reason].limit;
+        } else {
+            low = middle;
+        }
+    }
+    return high;
+}
+
+static void at_rest_nothing_stops_and_nothing_is_fine_in_silence(void **state)
+{
+    (void)state;
+    judgement j;
+    plan_file p = still();
+    judged(&p, &j);
+    assert_true(j.worst < LIMIT_STOP);
+    assert_near(find(&j, LIMIT_LE_FORT_GAP)->value, 0.5, 1e-9);
+    assert_near(find(&j, LIMIT_LE_FORT_STEP)->value, 0, 1e-9);
+    assert_near(find(&j, LIMIT_LE_FORT_CONTACT)->value, 60 * 70, 1e-6);
+    assert_near(find(&j, LIMIT_TOOTH_OVERLAP)->value, 0, 0);
+    assert_near(find(&j, LIMIT_OVERJET)->value, 10, 1e-9);
+    bool known[LIMIT_COUNT] = {0};
+    for (int i = 0; i < j.count; i++) {
+        const finding *f = &j.finding[i];
+        known[f->limit] = true;
+        assert_true(f->level != LIMIT_NOT_JUDGED || (isnan(f->value) && f->note));
+    }
+    for (int l = 0; l < LIMIT_SOLVED; l++) assert_true(known[l] || l == LIMIT_INTERFERENCE);
+    assert_int_equal(find(&j, LIMIT_BSSO_CONTACT)->level, LIMIT_NOT_JUDGED); /* no such cut here */
+    assert_int_equal(find(&j, LIMIT_CHIN_ADVANCE)->level, LIMIT_NOT_JUDGED);
+}
+
+static void both_down(plan_file *p, double mm)
+{
+    p->segment[SEGMENT_MAXILLA].translate_mm[2] = p->segment[SEGMENT_DISTAL].translate_mm[2] = -mm;
+}
+
+static void a_gap_stops_where_it_needs_a_graft(void **state)
+{
+    (void)state;
+    limit_id by = LIMIT_COUNT;
+    assert_near(bound(both_down, 0, 4.9, &by), 4.5, 0.05); /* and 0.5 of saw */
+    assert_int_equal(by, LIMIT_LE_FORT_GAP);
+}
+
+static void lower_up(plan_file *p, double mm)
+{
+    p->segment[SEGMENT_DISTAL].translate_mm[2] = mm;
+}
+
+static void teeth_stop_the_mandible(void **state)
+{
+    (void)state;
+    limit_id by = LIMIT_COUNT;
+    assert_near(bound(lower_up, 0, 8, &by), 0.8 + 3, 0.05);
+    assert_int_equal(by, LIMIT_TOOTH_OVERLAP);
+}
+
+static void lower_closes(plan_file *p, double deg)
+{
+    plan_segment *s = &p->segment[SEGMENT_DISTAL];
+    s->pitch_deg = -deg;
+    s->has_pivot_point = true;
+    s->pivot_mm[1] = -20;
+    s->pivot_mm[2] = -20.8;
+}
+
+static void closing_stops_where_the_front_teeth_meet(void **state)
+{
+    (void)state;
+    limit_id by = LIMIT_COUNT;
+    double deg = bound(lower_closes, 0, 8, &by);
+    assert_near(60 * sin(deg * pi / 180), 0.8 + 3, 0.05);
+    assert_int_equal(by, LIMIT_TOOTH_OVERLAP);
+}
+
+static void upper_up(plan_file *p, double mm)
+{
+    p->segment[SEGMENT_MAXILLA].translate_mm[2] = mm;
+}
+
+static void bone_to_be_trimmed_is_measured(void **state)
+{
+    (void)state;
+    limit_id by = LIMIT_COUNT;
+    judgement j;
+    plan_file p = still();
+    upper_up(&p, 4);
+    judged(&p, &j);
+    assert_near(find(&j, LIMIT_TRIM_DEPTH)->value, 3.5, 0.05);
+    assert_near(find(&j, LIMIT_TRIM_VOLUME)->value, 60 * 70 * 3.5, 0.01 * 60 * 70 * 3.5);
+    assert_true(find(&j, LIMIT_TRIM_DEPTH)->has_place);
+    assert_near(bound(upper_up, 0, 14, &by), 10, 0.05);
+    assert_int_equal(by, LIMIT_MAXILLA_IMPACTION);
+    patient.limits[LIMIT_MAXILLA_IMPACTION].stop[1] = 30;
+    assert_near(bound(upper_up, 0, 14, &by), 10.5, 0.05);
+    assert_int_equal(by, LIMIT_TRIM_DEPTH);
+    patient.limits[LIMIT_MAXILLA_IMPACTION] = limit_default[LIMIT_MAXILLA_IMPACTION].range;
+}
+
+static void levels_and_margins_follow_the_ranges(void **state)
+{
+    (void)state;
+    const limit_range gap = {{-LIMIT_OPEN, 3}, {-LIMIT_OPEN, 5}}, depth = {{0, 1}, {0, 3}}, room = {{5, LIMIT_OPEN}, {1, LIMIT_OPEN}};
+    assert_int_equal(limit_judge(&gap, 3), LIMIT_FINE);
+    assert_int_equal(limit_judge(&gap, 3.01), LIMIT_CAUTION);
+    assert_int_equal(limit_judge(&gap, 5.01), LIMIT_STOP);
+    assert_int_equal(limit_judge(&gap, -4000), LIMIT_FINE);
+    assert_int_equal(limit_judge(&gap, (double)NAN), LIMIT_NOT_JUDGED);
+    assert_near(limit_margin(&gap, 4), 1, 1e-12);
+    assert_near(limit_margin(&depth, 0), 3, 1e-12); /* 0 is no breach in the making */
+    assert_near(limit_margin(&room, 0.5), -0.5, 1e-12);
+    assert_int_equal(limit_judge(&room, 0.5), LIMIT_STOP);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(levels_and_margins_follow_the_ranges),
+        cmocka_unit_test(at_rest_nothing_stops_and_nothing_is_fine_in_silence),
+        cmocka_unit_test(a_gap_stops_where_it_needs_a_graft),
+        cmocka_unit_test(teeth_stop_the_mandible),
+        cmocka_unit_test(closing_stops_where_the_front_teeth_meet),
+        cmocka_unit_test(bone_to_be_trimmed_is_measured),
+    };
+    return cmocka_run_group_tests(tests, make_head, drop_head);
+}
