@@ -181,7 +181,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     scene_report scene = {0};
     plan_tissue flesh = {0};
     double start = seconds();
-    if (!plan_tissue_make(c, p, &moves, &flesh, e)) return false;
+    if (!plan_tissue_make(c, p, moves.move, &flesh, e)) return false;
     if (!solve(&plan, &moves, p, &flesh, in, &q, &scene, e)) {
         plan_tissue_free(&flesh);
         return false;
@@ -190,6 +190,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
                  .prepare_s = prepare_s, .solve_s = seconds() - start, .limits = &limits};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
+    bone_depth depth = {0};
     surface skin = {0};
     double *u = NEW_ARRAY(double, 3 * (size_t)q.node_count);
     bool ok = q.outcome != STOPPED_INTERRUPTED || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
@@ -197,7 +198,9 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         for (size_t i = 0; i < 3 * (size_t)q.node_count; i++) u[i] = q.xyz[i] - p->tissue.mesh.xyz[i];
         skin = surface_copy(&p->skin);
         embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, skin.xyz);
-        ok = carry_landmarks(p, &moves, u, &points, e);
+        ok = carry_landmarks(p, &moves, u, &points, e) &&
+             bone_depth_measure(p, &moves, &flesh.attach, q.xyz, &depth, e);
+        o.depth = &depth;
         o.u = u;
         o.skin = &skin;
         o.points = &points;

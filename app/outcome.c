@@ -1,7 +1,7 @@
 #include "app/outcome.h"
 #include "app/ceph_report.h"
-#include "app/plan_audit.h"
 #include "app/outcome_scene.h"
+#include "app/plan_audit.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/transform_file.h"
@@ -57,6 +57,15 @@ static json_t *contact_json(const contact_report *c)
                      c->energy_uj, "free_iterations", c->free_iterations, "contact_iterations",
                      c->contact_iterations, "refreshes", c->refreshes, "last_refresh_mm", c->refresh_change_mm,
                      "stiffenings", c->stiffenings, "uncoupled", c->uncoupled);
+}
+
+/* Tissue inside bone. */
+static json_t *depth_json(const bone_depth *d)
+{
+    return json_pack("{si sf sf sf sf so ss sf}", "nodes", d->nodes, "limit_mm", d->limit_mm, "area_mm2", d->area_mm2,
+                     "deeper_than_1mm_mm2", d->area_deep_mm2, "depth_mm", d->depth_mm, "at_lps_mm",
+                     d->nodes ? vector(d->at) : json_null(), "bone",
+                     d->nodes ? segment_name((segment_id)d->segment) : "", "from_skin_mm", d->from_skin_mm);
 }
 
 /* Of the residual with the bones moved; 0 where nothing moves and both are rounding. */
@@ -141,6 +150,7 @@ json_t *outcome_json(const outcome *o)
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
         json_object_set_new(out, "soft_to_hard", ratios_json(o));
+        json_object_set_new(out, "tissue_in_bone", depth_json(o->depth));
         json_object_set_new(out, "cephalometry",
                             ceph_report_json(&o->prepared->points, &o->points->after, &o->prepared->frame));
     }
@@ -252,6 +262,12 @@ void outcome_print(const outcome *o)
                c->active_nodes, c->nodes, c->bone_area_mm2, c->lip_area_mm2, c->depth_mm, c->pressure_kpa,
                c->free_iterations, c->contact_iterations);
     if (!o->points) return;
+    const bone_depth *d = o->depth;
+    if (d->nodes)
+        printf("tissue is up to %.1f mm deeper in bone than at rest, over %.0f mm2 (more than 1 mm over %.0f mm2); "
+               "deepest in the %s at (%.1f, %.1f, %.1f) mm, %.1f mm below the skin\n",
+               d->depth_mm, d->area_mm2, d->area_deep_mm2, segment_name((segment_id)d->segment), d->at[0], d->at[1],
+               d->at[2], d->from_skin_mm);
     int count = soft_ratios(o->prepared, o->points, r);
     printf("\n%-8s %9s %7s %7s   %-5s %9s %7s %7s   %s\n", "soft", "forward", "up", "left", "hard", "forward",
            "up", "left", "ratio");

@@ -1,5 +1,6 @@
 /* outcome: what a prediction leaves on disk, with the evidence for it. */
 #pragma once
+#include "app/bone_depth.h"
 #include "app/carried.h"
 #include "app/judge.h"
 #include "app/output_dir.h"
@@ -17,6 +18,7 @@ typedef struct outcome {
     const double *u;     /* [3*nodes] displacement of the tissue, mm */
     const surface *skin; /* predicted */
     const carried_landmarks *points;
+    const bone_depth *depth;
     const judgement *limits; /* of bones and tissue */
     double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
 } outcome;

@@ -67,6 +67,12 @@ static void list_plan_tissue(const outcome *o, json_t *on, json_t *left_out)
                                               "no septum was found: landmarks N, ANS and Pn, and a nose "
                                               "that is meshed, are needed",
                                               json_null()));
+    if (t->lip_nodes) {
+        snprintf(text, sizeof text,
+                 "the lower lip falls back onto the lower teeth as they come forward (%d nodes)",
+                 t->lip_nodes);
+        json_array_append_new(on, json_string(text));
+    }
     snprintf(text, sizeof text,
              "along the cuts of this plan moved bone carries its tissue up to the edge (%d nodes tied), bone "
              "that stays is "

@@ -15,9 +15,15 @@ static bool make_materials(const case_file *c, plan_tissue *t, err *e)
            material_make(MATERIAL_SNH_LOG, cartilage_kpa, cartilage_poisson, &t->material[1].material, e);
 }
 
-static bool add_nose(const prepared *p, const plan_moves *moves, plan_tissue *t, err *e)
+static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
 {
-    const rigid *maxilla = &moves->move[SEGMENT_MAXILLA];
+    lip_rest_params params = lip_rest_params_default(c->tissue.vestibule_lower_mm);
+    return lip_rest(&p->tissue, &p->segments, motion, &p->points, &p->frame, &params, &t->attach, &t->lip_nodes, e);
+}
+
+static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
+{
+    const rigid *maxilla = &motion[SEGMENT_MAXILLA];
     nose_params params = nose_params_default();
     bool found = false;
     if (rigid_is_identity(maxilla)) return true;
@@ -31,13 +37,13 @@ static bool add_nose(const prepared *p, const plan_moves *moves, plan_tissue *t,
     return true;
 }
 
-bool plan_tissue_make(const case_file *c, const prepared *p, const plan_moves *moves, plan_tissue *out,
+bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *out,
                       err *e)
 {
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
-    bool ok = plan_attach(&p->tissue, &p->segments, moves->move, &along_cuts, &t.attach, &t.cuts, e) &&
-              add_nose(p, moves, &t, e) && make_materials(c, &t, e);
+    bool ok = plan_attach(&p->tissue, &p->segments, motion, &along_cuts, &t.attach, &t.cuts, e) &&
+              add_nose(p, motion, &t, e) && add_lip(c, p, motion, &t, e) && make_materials(c, &t, e);
     if (ok)
         *out = t;
     else

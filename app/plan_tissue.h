@@ -1,8 +1,8 @@
 /* plan_tissue: the tissue as one plan meets it: attachments along the cuts that open, cartilage where the
  * nose needs it, and the materials. */
 #pragma once
-#include "app/plan_moves.h"
 #include "app/prepared.h"
+#include "geometry/lip_rest.h"
 #include "geometry/nose.h"
 #include "geometry/plan_attach.h"
 #include "sim/material.h"
@@ -13,11 +13,12 @@ typedef struct plan_tissue {
     attach_map attach;
     nose nose; /* none where the maxilla stays */
     plan_attach_report cuts;
+    int32_t lip_nodes; /* of the lower lip's lining, that fall back onto the teeth */
     region_material material[2];
     int32_t material_count;
 } plan_tissue;
 
 /* The caller frees *out before p. Refuses what nearest_create and material_make refuse. */
-bool plan_tissue_make(const case_file *c, const prepared *p, const plan_moves *moves, plan_tissue *out,
+bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *out,
                       err *e) MUST_CHECK;
 void plan_tissue_free(plan_tissue *t);

@@ -16,6 +16,7 @@ typedef struct attach_map {
     uint8_t *kind;    /* [node_count] node_kind */
     int32_t *segment; /* [node_count] segment_id of tied and sliding nodes, else -1 */
     double *normal;   /* [3*node_count] unit, of sliding nodes, out of the bone into the tissue */
+    double *shift_mm; /* [node_count] or NULL: how far along its normal a sliding node lies off its place at rest */
     /* Facing nodes of the two lips: at rest in one place, free to slide along each other in the plane across
      * pair_normal and kept together across it. A node is in at most one pair; sliding or tied nodes are in none. */
     int32_t pair_count;

@@ -80,10 +80,12 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
 static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q,
                   study_result *out, err *e)
 {
-    plan_moves moves = {0};
-    memcpy(moves.move, t->motion, sizeof moves.move);
-    plan_tissue flesh = {0};
-    if (!plan_tissue_make(t->patient, p, &moves, &flesh, e)) return false;
+    plan_tissue flesh;
+    if (!plan_tissue_make(t->patient, p, t->motion, &flesh, e)) return false;
+    if (r->average) { /* one material only */
+        flesh.mesh.region = p->tissue.mesh.region;
+        flesh.material_count = 1;
+    }
     equilibrium_problem problem = {.mesh = &flesh.mesh,
                                    .attach = &flesh.attach,
                                    .materials = flesh.material,

@@ -20,6 +20,7 @@ void attach_map_free(attach_map *a)
     free(a->kind);
     free(a->segment);
     free(a->normal);
+    free(a->shift_mm);
     free(a->pair);
     free(a->pair_normal);
     *a = (attach_map){0};

@@ -75,6 +75,27 @@ static void settle(const field *f, const plan_attach_params *p, int32_t v, attac
     }
 }
 
+/* A node that was tied alone, in no tet with two more nodes of its segment, would be a thorn in the tissue. */
+static void pull_thorns(const tissue *t, attach_map *a, plan_attach_report *r)
+{
+    uint8_t *rooted = NEW_ARRAY(uint8_t, t->mesh.vertex_count);
+    for (int32_t i = 0; i < t->mesh.tet_count; i++) {
+        const int32_t *v = t->mesh.tet + 4 * (size_t)i;
+        for (int k = 0; k < 4; k++) {
+            int same = 0;
+            for (int j = 0; j < 4; j++)
+                same += a->kind[v[j]] != NODE_FREE && a->segment[v[j]] == a->segment[v[k]];
+            rooted[v[k]] |= same >= 3;
+        }
+    }
+    for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
+        if (rooted[v] || a->kind[v] != NODE_TIED || t->attach.kind[v] != NODE_FREE) continue;
+        loosen(a, v);
+        r->tied--;
+    }
+    free(rooted);
+}
+
 /* No tet may hang on two bones that part: the one that stays lets go. */
 static void part_bridges(const field *f, attach_map *a, plan_attach_report *r)
 {
@@ -120,9 +141,15 @@ bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGM
         if (bones->part[s].triangle_count) ok = nearest_create(&bones->part[s], &f.part[s], e);
     if (ok) {
         *out = copy_of(&t->attach);
+        uint8_t *facing = NEW_ARRAY(uint8_t, t->mesh.vertex_count); /* lip on lip: hangs on no bone */
+        for (int32_t i = 0; i < 2 * out->pair_count; i++) facing[out->pair[i]] = 1;
         for (int32_t v = 0; f.kerf && v < t->mesh.vertex_count; v++)
-            if (t->side[v] == SIDE_BONE) settle(&f, p, v, out, report);
-        if (f.kerf) part_bridges(&f, out, report);
+            if (t->side[v] == SIDE_BONE && !facing[v]) settle(&f, p, v, out, report);
+        free(facing);
+        if (f.kerf) {
+            pull_thorns(t, out, report);
+            part_bridges(&f, out, report);
+        }
     }
     nearest_destroy(&f.kerf);
     for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&f.part[s]);

@@ -159,6 +159,7 @@ void boundary_move(boundary *b, const tetmesh *m, const attach_map *a, const rig
         if (a->kind[v] != NODE_SLIDING) continue;
         frame_about(a->normal + 3 * (size_t)v, basis);
         for (int k = 0; k < 3; k++) rigid_rotate(&motion[a->segment[v]], basis + 3 * k, basis + 3 * k);
+        if (a->shift_mm) vec_axpy(origin, a->shift_mm[v], basis, origin);
     }
     for (int32_t i = 0; i < 2 * a->pair_count; i++) {
         size_t v = (size_t)a->pair[i];

@@ -82,10 +82,12 @@ static void choose_tets(const tetmesh *m, const attach_map *a, part *p)
 static void choose_attachments(const attach_map *a, part *p)
 {
     p->attach = attach_map_new(p->mesh.vertex_count, a->pair_count);
+    if (a->shift_mm) p->attach.shift_mm = NEW_ARRAY(double, p->mesh.vertex_count);
     for (int32_t i = 0; i < p->mesh.vertex_count; i++) {
         int32_t v = p->node[i];
         p->attach.kind[i] = p->held[v] ? NODE_TIED : a->kind[v];
         p->attach.segment[i] = p->held[v] ? SEGMENT_CRANIUM : a->segment[v];
+        if (a->shift_mm && !p->held[v]) p->attach.shift_mm[i] = a->shift_mm[v];
         if (!p->held[v]) vec_copy(a->normal + 3 * (size_t)v, p->attach.normal + 3 * (size_t)i);
     }
     p->attach.pair_count = 0;
