@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 struct input {
     command_options common;
@@ -222,10 +223,12 @@ static bool draw(const struct input *in, const drawn *d, const char *folder, jso
     for (int s = 0; ok && s < SHOW_COUNT; s++)
         if (in->order.shows[s]) ok = pictures_subject_measure(&p, (panel_show)s, e);
     ok = ok && gallery_open(&p.shown, &in->style, &g, e);
-    if (ok && mkdir(folder, 0777) && errno != EEXIST)
+    bool made = ok && mkdir(folder, 0777) == 0;
+    if (ok && !made && errno != EEXIST)
         ok = err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made: %s", strerror(errno));
     ok = ok && (order_is_standard(&in->order) ? draw_standard(in, g, folder, files, e)
                                               : draw_order(in, g, folder, files, e));
+    if (!ok && made) rmdir(folder); /* goes if no picture is in it */
     gallery_close(&g);
     pictures_subject_free(&p);
     return ok;
