@@ -60,7 +60,7 @@ static bool measure_signed(pictures_subject *p, err *e)
         free(mm);
         return false;
     }
-    /* measured from the predicted skin: turned round, forward of the old skin is positive */
+    /* measured from the predicted skin: turned round, outside of the old skin is positive */
     for (int32_t v = 0; v < s->skin_after->vertex_count; v++) mm[v] = -mm[v];
     p->shown.signed_mm = p->signed_mm = mm;
     return true;
