@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 struct input {
     command_options common;
@@ -164,10 +165,10 @@ static bool read_outcome(const char *folder, drawn *d, err *e)
            outcome_segments_read(folder, &d->record, &d->at_rest, d->move, e);
 }
 
-static double seconds(void)
+static double seconds(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -222,22 +223,25 @@ static bool draw(const struct input *in, const drawn *d, const char *folder, jso
     for (int s = 0; ok && s < SHOW_COUNT; s++)
         if (in->order.shows[s]) ok = pictures_subject_measure(&p, (panel_show)s, e);
     ok = ok && gallery_open(&p.shown, &in->style, &g, e);
-    if (ok && mkdir(folder, 0777) && errno != EEXIST)
+    bool made = ok && mkdir(folder, 0777) == 0;
+    if (ok && !made && errno != EEXIST)
         ok = err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made: %s", strerror(errno));
     ok = ok && (order_is_standard(&in->order) ? draw_standard(in, g, folder, files, e)
                                               : draw_order(in, g, folder, files, e));
+    if (!ok && made) rmdir(folder); /* goes if no picture is in it */
     gallery_close(&g);
     pictures_subject_free(&p);
     return ok;
 }
 
-static void print(const struct input *in, json_t *files, double load_s, double draw_s)
+static void print(const struct input *in, json_t *files, double load_s, double draw_s, double draw_cpu_s)
 {
     size_t i;
     json_t *file;
     if (in->common.json) {
-        command_print_json(
-            json_pack("{sO s{sf sf}}", "files", files, "seconds", "load", load_s, "draw", draw_s), "render");
+        command_print_json(json_pack("{sO s{sf sf sf}}", "files", files, "seconds", "load", load_s, "draw",
+                                     draw_s, "draw_cpu", draw_cpu_s),
+                           "render");
         return;
     }
     if (!in->common.quiet) json_array_foreach(files, i, file) puts(json_string_value(file));
@@ -263,11 +267,13 @@ int command_render(int argc, char **argv)
     char folder[1200];
     snprintf(folder, sizeof folder, "%s%s", in.out ? in.out : in.folder[0], in.out ? "" : "/pictures");
     json_t *files = json_array();
-    double start = seconds();
+    double start = seconds(CLOCK_MONOTONIC);
     bool ok = read_outcome(in.folder[0], &d, &e);
-    double loaded = seconds();
+    double loaded = seconds(CLOCK_MONOTONIC), cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
     ok = ok && draw(&in, &d, folder, files, &e);
-    if (ok) print(&in, files, loaded - start, seconds() - loaded);
+    if (ok)
+        print(&in, files, loaded - start, seconds(CLOCK_MONOTONIC) - loaded,
+              seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu);
     json_decref(files);
     outcome_record_free(&d.record);
     surface_free(&d.skin_before);

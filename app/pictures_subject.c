@@ -9,15 +9,6 @@
 static const double rim_reach_mm =
     1.2; /* the saw is half a millimetre wide, its edges are divided into as much */
 
-static const char *const display_name[SEGMENT_COUNT] = {
-    [SEGMENT_CRANIUM] = "cranium",
-    [SEGMENT_MAXILLA] = "maxilla",
-    [SEGMENT_DISTAL] = "distal mandible",
-    [SEGMENT_PROXIMAL_LEFT] = "proximal, left",
-    [SEGMENT_PROXIMAL_RIGHT] = "proximal, right",
-    [SEGMENT_CHIN] = "chin",
-};
-
 void pictures_subject_make(const pictures_input *in, pictures_subject *out)
 {
     *out = (pictures_subject){.at_rest = in->at_rest};
@@ -38,7 +29,7 @@ void pictures_subject_make(const pictures_input *in, pictures_subject *out)
                             .before = rigid_identity(),
                             .after = in->move[i],
                             .kind = MATERIAL_BONE,
-                            .name = display_name[i]};
+                            .name = subject_segment_title((segment_id)i)};
         subject_segment_color((segment_id)i, p->rgb);
     }
 }
@@ -60,7 +51,7 @@ static bool measure_signed(pictures_subject *p, err *e)
         free(mm);
         return false;
     }
-    /* measured from the predicted skin: turned round, forward of the old skin is positive */
+    /* measured from the predicted skin: turned round, outside of the old skin is positive */
     for (int32_t v = 0; v < s->skin_after->vertex_count; v++) mm[v] = -mm[v];
     p->shown.signed_mm = p->signed_mm = mm;
     return true;

@@ -1,7 +1,9 @@
 /* Off-screen OpenGL through OSMesa, Mesa's software rasteriser without a window system (Mesa < 25.1). */
 #include "render/src/backend.h"
 #include "geometry/mem.h"
+#include "geometry/parallel.h"
 #include <GL/osmesa.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { SIDE = 16 }; /* OSMesa wants a buffer to bind; all drawing goes to our own frame buffers */
@@ -10,6 +12,15 @@ struct backend {
     OSMesaContext context;
     unsigned char buffer[4 * SIDE * SIDE];
 };
+
+/* The rasteriser has threads of its own, as many as LP_NUM_THREADS says (0: none but the caller's) when the process
+ * first draws; pictures do not depend on it. What the user has set stays. */
+static void share_threads(void)
+{
+    char text[16];
+    snprintf(text, sizeof text, "%d", parallel_threads() > 1 ? parallel_threads() : 0);
+    setenv("LP_NUM_THREADS", text, 0);
+}
 
 bool backend_open(backend **out, err *e)
 {
@@ -25,6 +36,7 @@ bool backend_open(backend **out, err *e)
                                      3,
                                      0};
     backend *b = mem_alloc(1, sizeof *b);
+    share_threads();
     b->context = OSMesaCreateContextAttribs(attributes, NULL);
     if (!b->context) {
         free(b);

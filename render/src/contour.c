@@ -44,7 +44,7 @@ static void draw_grid(const profile *f, const double zero[3])
     }
     if (f->g->style->labels)
         pen_text(f->p, zx - 0.4 * f->size, f->height - 2.0 * f->size, LABEL_RIGHT, 0.75 * f->size, false,
-                 axis_rgb, "true vertical through Sn");
+                 axis_rgb, "vertical through Sn");
 }
 
 static void draw_points(const profile *f)

@@ -107,10 +107,10 @@ static void draw_layer(studio *s, const layer *l, const camera *c)
 {
     const gl *g = &s->gl;
     loaded x = load_layer(g, l, c);
-    g->UseProgram(s->shade);
-    set_move(g, s->shade, &l->move);
-    set_float(g, s->shade, "use_map", l->scalar ? 1 : 0);
-    set_float(g, s->shade, "fade", l->scalar ? (l->fade_end - l->low) / (l->high - l->low) : 0);
+    GLuint program = l->scalar ? s->map : s->shade;
+    g->UseProgram(program);
+    set_move(g, program, &l->move);
+    if (l->scalar) set_float(g, program, "fade", (l->fade_end - l->low) / (l->high - l->low));
     g->BindTexture(GL_TEXTURE_2D, x.map);
     g->BindVertexArray(l->shape->array);
     set_attribute(g, 1, 4, x.light, 0, 0, 0);
@@ -132,11 +132,12 @@ static void set_camera(studio *s, const picture *p, int width, int height)
     const gl *g = &s->gl;
     float clip[16];
     clip_matrix(&p->view, width, height, 0, clip);
-    g->UseProgram(s->ribbon);
-    g->UniformMatrix4fv(g->GetUniformLocation(s->ribbon, "to_clip"), 1, GL_FALSE, clip);
-    g->UseProgram(s->shade);
-    g->UniformMatrix4fv(g->GetUniformLocation(s->shade, "to_clip"), 1, GL_FALSE, clip);
-    set_rgb(g, s->shade, "no_data", colormap_no_data, true);
+    const GLuint programs[] = {s->ribbon, s->shade, s->map};
+    for (int i = 0; i < 3; i++) {
+        g->UseProgram(programs[i]);
+        g->UniformMatrix4fv(g->GetUniformLocation(programs[i], "to_clip"), 1, GL_FALSE, clip);
+    }
+    set_rgb(g, s->map, "no_data", colormap_no_data, true);
 }
 
 void draw_opaque_layers(studio *s, const picture *p, int width, int height)

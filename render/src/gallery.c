@@ -30,6 +30,19 @@ void subject_segment_color(segment_id id, double rgb[3])
     vec_copy(color[id], rgb);
 }
 
+const char *subject_segment_title(segment_id id)
+{
+    static const char *const title[SEGMENT_COUNT] = {
+        [SEGMENT_CRANIUM] = "cranium",
+        [SEGMENT_MAXILLA] = "maxilla",
+        [SEGMENT_DISTAL] = "distal mandible",
+        [SEGMENT_PROXIMAL_LEFT] = "proximal, left",
+        [SEGMENT_PROXIMAL_RIGHT] = "proximal, right",
+        [SEGMENT_CHIN] = "chin",
+    };
+    return title[id];
+}
+
 /* ---- opening ---- */
 
 static bool check(const subject *s, err *e)

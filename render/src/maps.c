@@ -49,7 +49,7 @@ const double *gallery_map(const gallery *g, panel_show show, label_map *bar)
     if (show == SHOW_SIGNED) {
         bar->map = COLORMAP_COOLWARM;
         bar->low = bar->fade_end = -high;
-        bar->caption = g->s->signed_caption ? g->s->signed_caption : "forward +, back -, mm";
+        bar->caption = g->s->signed_caption ? g->s->signed_caption : "outward +, inward -, mm";
     }
     return map_values(g, show);
 }

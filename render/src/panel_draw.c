@@ -148,7 +148,9 @@ static void write_bar(const gallery *g, panel_show show, pen *p, const image *im
                     0.75 * size, &bar);
     char text[96];
     snprintf(text, sizeof text, "%s (largest %.1f)", bar.caption, r.largest);
-    pen_text(p, im->width - 1.2 * size, im->height - 3.9 * size, LABEL_RIGHT, 0.8 * size, true, ink, text);
+    double room = im->width - 2.4 * size, wide = pen_text_width(p, 0.8 * size, true, text);
+    pen_text(p, im->width - 1.2 * size, im->height - 3.9 * size, LABEL_RIGHT,
+             0.8 * size * fmin(1, room / wide), true, ink, text);
 }
 
 static void write_legend(const gallery *g, pen *p, const image *im, double size)
@@ -161,11 +163,12 @@ static void write_legend(const gallery *g, pen *p, const image *im, double size)
         if (!part->name) continue;
         entry[count].text = part->name;
         vec_copy(part->rgb, entry[count++].rgb);
-        widest = fmax(widest, pen_text_width(p, 0.75 * size, false, part->name));
     }
-    double height = count * 1.55 * 0.75 * size;
-    label_legend(p, im->width - widest - 2.3 * size, im->height - height - 0.6 * size, 0.75 * size, entry,
-                 count);
+    /* at most a third of a small picture */
+    double font = fmin(0.75 * size, 0.33 * im->height / (1.55 * (count ? count : 1)));
+    for (int i = 0; i < count; i++) widest = fmax(widest, pen_text_width(p, font, false, entry[i].text));
+    label_legend(p, im->width - widest - 2.4 * font - 0.5 * size,
+                 im->height - count * 1.55 * font - 0.6 * size, font, entry, count);
     free(entry);
 }
 

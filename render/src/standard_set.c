@@ -11,10 +11,7 @@
 #define PAIR(show, view, second)                                                                             \
     2, 2,                                                                                                    \
     {                                                                                                        \
-        {show, POSE_BEFORE, view, "Before"},                                                                 \
-        {                                                                                                    \
-            show, POSE_AFTER, view, "Predicted"                                                              \
-        }                                                                                                    \
+        {show, POSE_BEFORE, view, "Before"}, {show, POSE_AFTER, view, second}                                \
     }
 
 const standard_picture standard_set[] = {

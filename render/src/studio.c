@@ -22,10 +22,11 @@ static bool set_up(studio *s, err *e)
     const gl *g = &s->gl;
     if (!gl_load(s->context, &s->gl, e)) return false;
     s->shade = gl_program(g, shader_shade_vertex, shader_shade_fragment, e);
+    s->map = gl_program(g, shader_shade_vertex, shader_map_fragment, e);
     s->ball = gl_program(g, shader_ball_vertex, shader_ball_fragment, e);
     s->ribbon = gl_program(g, shader_ribbon_vertex, shader_ribbon_fragment, e);
     s->finish = gl_program(g, shader_finish_vertex, shader_finish_fragment, e);
-    if (!s->shade || !s->ball || !s->ribbon || !s->finish) return false;
+    if (!s->shade || !s->map || !s->ball || !s->ribbon || !s->finish) return false;
     g->GenVertexArrays(1, &s->empty_array);
     snprintf(s->description, sizeof s->description, "%s, %s, %s", backend_name(s->context),
              (const char *)g->GetString(GL_RENDERER), (const char *)g->GetString(GL_VERSION));

@@ -63,7 +63,7 @@ static void draw_planes(const profile *f, bool after)
     /* true vertical line through subnasale */
     double sn[3], other[3], top[3], bottom[3], me[3];
     if (profile_point(f, after, "Sn", sn) && profile_point(f, !after, "Sn", other) &&
-        profile_point(f, after, "Me'", me)) {
+        (profile_point(f, after, "Me'", me) || profile_point(f, after, "Pg'", me))) {
         vec_sub(sn, other, top);
         bool same = fabs(vec_dot(top, f->g->s->frame.posterior)) < same_mm;
         vec_axpy(sn, 30, f->g->s->frame.up, top);

@@ -29,7 +29,6 @@ static surface block(double x0, double y0, double z0, double x1, double y1, doub
             }
     }
     /* faces meet in shared vertices: weld */
-    surface out = {0};
     int32_t *first = NEW_ARRAY(int32_t, s.vertex_count);
     for (int32_t v = 0; v < s.vertex_count; v++) {
         first[v] = v;
@@ -41,8 +40,7 @@ static surface block(double x0, double y0, double z0, double x1, double y1, doub
     }
     for (int32_t i = 0; i < 3 * s.triangle_count; i++) s.tri[i] = first[s.tri[i]];
     free(first);
-    out = s;
-    return out;
+    return s;
 }
 
 static double total_length(const cut_rims *r, int segment)
