@@ -32,7 +32,8 @@ bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, do
     node_blocks_fill(&t->f, &t->a, t->a.value, &t->k);
     *ok = true;
     bool fine = true;
-    if (!t->grid || t->grid_loss > GRID_COST) fine = make_grid(d, x, ok, e);
+    bool old = t->grid_loss > GRID_COST || (d->touching && contact_stiffness_is_old(t->touch));
+    if (!t->grid || old) fine = make_grid(d, x, ok, e);
     if (fine && !*ok && kind == HESSIAN_TRUE) { /* of the clamped matrix, for the true one */
         direct_fill(d, x, d->params->projection);
         node_blocks_fill(&t->f, &t->a, t->a.value, &t->k);
