@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MULTIPLY_GRAIN = 512, PRODUCT_GRAIN = 2048 };
+enum { MULTIPLY_GRAIN = 2048, PRODUCT_GRAIN = 2048 };
 
 void blocks_free(blocks *a)
 {

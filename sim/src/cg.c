@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUM_GRAIN = 8192 };
+enum { SUM_GRAIN = 32768 };
 
 typedef struct sum_job {
     const double *a, *b;
