@@ -24,6 +24,7 @@ struct solver {
     multigrid *grid;
     double grid_rate; /* iterations per digit with the matrix it was made of; 0: not known yet */
     double grid_loss; /* iterations lost since, for its age */
+    double *matrix_x; /* [3*nodes] where the assembly's node blocks are those of the elastic energy, else NULL */
     double prepare_s;
 };
 
@@ -99,9 +100,10 @@ void direct_remember(descent *d);
 bool direct_reusable(const descent *d);
 
 /* inexact.c */
-/* Makes the matrix at x ready for inexact_solve; kind TRUE or PROJECTED. *ok false: it has no
- * preconditioner. */
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, double *seconds, err *e) MUST_CHECK;
+/* Makes the matrix at x ready for inexact_solve; kind TRUE or PROJECTED. near_enough: one of a place within
+ * 0.01 mm will do. *ok false: it has no preconditioner. */
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok, double *seconds,
+                    err *e) MUST_CHECK;
 /* u = about its inverse times b, the residual rel_tol of b. Where the matrix shows negative curvature u is
  * where the iteration had got to: u.b > 0 still. *ok false: the iteration got nowhere. */
 bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,

@@ -12,6 +12,10 @@ void direct_fill(descent *d, const double *x, projection how)
 {
     assembly *a = &d->t->a;
     double begin = clock_s();
+    free(d->t->matrix_x);
+    d->t->matrix_x = NULL;
+    if (d->inexact && !d->touching && how == PROJECTION_NONE)
+        d->t->matrix_x = COPY_ARRAY(double, x, 3 * (size_t)a->node_count);
     assembly_stiffness(a, x, how);
     if (d->touching) contact_stiffness(d->t->touch, x, how == PROJECTION_NONE, a);
     assembly_matrix(a, &d->t->b);

@@ -127,6 +127,7 @@ void solver_destroy(solver **t)
     if (!*t) return;
     multigrid_destroy(&(*t)->grid);
     blocks_free(&(*t)->k);
+    free((*t)->matrix_x);
     node_blocks_free(&(*t)->f);
     linear_destroy(&(*t)->l);
     contact_destroy(&(*t)->touch);
@@ -193,7 +194,11 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     descent d;
     descent_make(&d, t, params, &q);
     if (t->touch) contact_restart(t->touch);
-    if (!start_xyz) multigrid_destroy(&t->grid); /* what is solved from rest does not depend on plans before */
+    if (!start_xyz) { /* what is solved from rest does not depend on plans before */
+        multigrid_destroy(&t->grid);
+        free(t->matrix_x);
+        t->matrix_x = NULL;
+    }
     bool ok = true, from_guess = start_xyz != NULL;
     int eased = 0;
     double step = 1.0 / params->load_steps;

@@ -5,8 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double near_mm = 0.01;
 static const double blend_least = 1.0 / 256, blend_ratio = 4; /* as in direct.c */
-enum { CG_MOST = 200, GRID_COST = 20 /* iterations that making a preconditioner is worth */ };
+enum { CG_MOST = 200, GRID_COST = 30 /* iterations that making a preconditioner is worth */ };
 
 static bool make_grid(descent *d, const double *x, bool *ok, err *e)
 {
@@ -20,11 +21,22 @@ static bool make_grid(descent *d, const double *x, bool *ok, err *e)
     return fine;
 }
 
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, double *seconds, err *e)
+static bool is_near(const double *a, const double *b, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(fabs(a[i] - b[i]) < near_mm)) return false;
+    return true;
+}
+
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok, double *seconds,
+                    err *e)
 {
     solver *t = d->t;
     double begin = clock_s();
-    direct_fill(d, x, kind == HESSIAN_TRUE ? PROJECTION_NONE : d->params->projection);
+    if (near_enough && t->matrix_x && is_near(t->matrix_x, x, 3 * (size_t)t->b.node_count))
+        assembly_matrix(&t->a, &t->b); /* directions of sliding nodes may have turned */
+    else
+        direct_fill(d, x, kind == HESSIAN_TRUE ? PROJECTION_NONE : d->params->projection);
     if (!t->k.start) {
         t->f = node_blocks_make(&t->b);
         t->k = node_blocks_matrix(&t->f, &t->a);
@@ -121,7 +133,7 @@ static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result 
 bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool *ok, double *seconds, err *e)
 {
     cg_result r;
-    if (!inexact_matrix(d, d->x, *kind, ok, seconds, e)) return false;
+    if (!inexact_matrix(d, d->x, *kind, false, ok, seconds, e)) return false;
     if (!*ok) return true;
     if (!gradients(d, d->g, forcing(d), d->direction, cg_iterations, &r, e)) return false;
     note_age(d->t, &r);

@@ -37,7 +37,7 @@ static bool respond(descent *d, const double *x_start, double *seconds, int *cg_
     hessian_kind kind = HESSIAN_TRUE;
     *ok = true;
     if (d->inexact) {
-        if (!inexact_matrix(d, x_start, kind, ok, seconds, e)) return false;
+        if (!inexact_matrix(d, x_start, kind, true, ok, seconds, e)) return false;
         d->inexact = *ok;
     }
     if (!d->inexact && !direct_factorise(d, x_start, &kind, ok, seconds, e)) return false;
