@@ -73,7 +73,7 @@ typedef struct solve_params {
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
-    enum projection projection;         /* CLAMP or ABS */
+    enum projection projection; /* CLAMP or ABS */
     enum linear_kind linear;
     bool reuse_factor;                  /* false: factorise in each iteration */
     int blas_threads;                   /* 1: the same bits whatever the machine is doing; see linear.h */

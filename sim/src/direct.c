@@ -148,4 +148,3 @@ bool direct_reusable(const descent *d)
     double rate = log(d->residual_at_factor / d->residual) / d->since_factor;
     return rate > 0 && log(d->residual / d->tolerance) / rate < factor / step + 4;
 }
-

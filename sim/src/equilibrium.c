@@ -118,8 +118,7 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
 
 bool solver_order(solver *t, err *e)
 {
-    return t->l ||
-           linear_create(t->b.unknown_count, t->a.column_start, t->a.row, t->blas_threads, &t->l, e);
+    return t->l || linear_create(t->b.unknown_count, t->a.column_start, t->a.row, t->blas_threads, &t->l, e);
 }
 
 void solver_destroy(solver **t)

@@ -28,8 +28,8 @@ static bool is_near(const double *a, const double *b, size_t n)
     return true;
 }
 
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok, double *seconds,
-                    err *e)
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok,
+                    double *seconds, err *e)
 {
     solver *t = d->t;
     double begin = clock_s();
@@ -69,8 +69,8 @@ static void note_age(solver *t, const cg_result *r)
 }
 
 /* With the present matrix. */
-static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, cg_result *r,
-                      err *e)
+static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations,
+                      cg_result *r, err *e)
 {
     solver *t = d->t;
     double begin = clock_s(), *side = NEW_ARRAY(double, 3 * (size_t)t->f.block_count),
@@ -89,7 +89,8 @@ static bool gradients(descent *d, const double *b, double rel_tol, double *u, in
     return fine;
 }
 
-bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok, err *e)
+bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,
+                   err *e)
 {
     cg_result r;
     if (!gradients(d, b, rel_tol, u, cg_iterations, &r, e)) return false;
@@ -106,8 +107,8 @@ static double forcing(const descent *d)
 }
 
 /* A direction of negative curvature was met after a step that had to be cut, so what the truncated iteration
- * finds is no good guide: between the true matrix, in which a direction of negative curvature was met, and the clamped one, the first in a
- * coarse ladder in which no such direction is met; see direct.c. */
+ * finds is no good guide: between the true matrix, in which a direction of negative curvature was met, and
+ * the clamped one, the first in a coarse ladder in which no such direction is met; see direct.c. */
 static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result *r, err *e)
 {
     solver *t = d->t;
@@ -137,7 +138,8 @@ bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool 
     if (!*ok) return true;
     if (!gradients(d, d->g, forcing(d), d->direction, cg_iterations, &r, e)) return false;
     note_age(d->t, &r);
-    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e)) return false;
+    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e))
+        return false;
     *ok = r.indefinite || r.reduction < 0.5;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->direction[i] = -d->direction[i];
     return true;

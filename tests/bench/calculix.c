@@ -1,8 +1,8 @@
 /* The curved slab side by side with CalculiX (program ccx): same mesh, energy (nhiso) and boundary, both from
  * nothing. Prints CSV.
  *   calculix FOLDER [cells through the thickness, default 5] [threads, default 1]
- * 5 cells: 4.8k nodes; 7: 12k; 10: 34k. The deck and CalculiX's output are left in FOLDER. largest_difference_mm
- * holds the six digits that CalculiX prints and its own tolerance. */
+ * 5 cells: 4.8k nodes; 7: 12k; 10: 34k. The deck and CalculiX's output are left in FOLDER.
+ * largest_difference_mm holds the six digits that CalculiX prints and its own tolerance. */
 #include "tests/bench/yardstick.h"
 #include "geometry/parallel.h"
 #include "tests/physics/block.h"
@@ -42,7 +42,8 @@ static void write_deck(const char *folder, const tetmesh *m, const attach_map *a
             law->mu_kpa / 2, 2 / law->lambda_kpa);
     for (int32_t v = 0; v < m->vertex_count; v++)
         for (int c = 0; c < 3 && a->kind[v] == NODE_TIED; c++)
-            fprintf(f, "%d,%d,%d,%.12g\n", v + 1, c + 1, c + 1, a->segment[v] == SEGMENT_MAXILLA ? move[c] : 0);
+            fprintf(f, "%d,%d,%d,%.12g\n", v + 1, c + 1, c + 1,
+                    a->segment[v] == SEGMENT_MAXILLA ? move[c] : 0);
     fprintf(f, "*NODE PRINT,NSET=NALL\nU\n*END STEP\n");
     fclose(f);
 }
@@ -105,7 +106,8 @@ int main(int argc, char **argv)
     static const double move[3] = {0, 2, 6};
     attach_map a;
     tetmesh m = slab_mesh(5 * cells, 6 * cells, cells, &a);
-    puts("nodes,poisson,threads,outcome,iterations,wall_s,cpu_s,ccx_outcome,ccx_iterations,ccx_wall_s,ccx_cpu_s,"
+    puts("nodes,poisson,threads,outcome,iterations,wall_s,cpu_s,ccx_outcome,ccx_iterations,ccx_wall_s,ccx_"
+         "cpu_s,"
          "ccx_over_gnathos_wall,ccx_over_gnathos_cpu,largest_difference_mm");
     for (int n = 0; n < 2; n++) {
         err e = {0};

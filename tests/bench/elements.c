@@ -1,7 +1,7 @@
 /* Error against time of plain and volume-averaged linear tets. Prints CSV.
  *   elements [finest level of the slab: 12 or 6, default 12] [threads, default 1]
- * manufactured: L2 error of a known large deformation of a cube. slab: the curved slab with its patch moved by
- * 6 mm, largest and root mean square error of the displacement of the outer (skin) nodes that all meshes
+ * manufactured: L2 error of a known large deformation of a cube. slab: the curved slab with its patch moved
+ * by 6 mm, largest and root mean square error of the displacement of the outer (skin) nodes that all meshes
  * share, against averaged tets on the finest mesh. */
 #include "tests/bench/yardstick.h"
 #include "geometry/parallel.h"
@@ -52,8 +52,8 @@ static void manufactured_rows(double poisson)
             double error = manufactured_error(cells, poisson, average, &iterations);
             spent took = time_since(begin);
             printf("manufactured,%.2f,%s,%d,%d,solved,%d,%.2f,%.2f,,%.5f\n", poisson,
-                   average ? "averaged" : "plain", cells, 3 * (cells - 1) * (cells - 1) * (cells - 1), iterations,
-                   took.wall_s, took.cpu_s, error);
+                   average ? "averaged" : "plain", cells, 3 * (cells - 1) * (cells - 1) * (cells - 1),
+                   iterations, took.wall_s, took.cpu_s, error);
             fflush(stdout);
         }
 }
@@ -74,9 +74,9 @@ static void slab_rows(double poisson, int finest)
                 worst = fmax(worst, d);
                 square += d * d / got.count;
             }
-            printf("slab,%.2f,%s,%d,%lld,%s,%d,%.2f,%.2f,%.5f,%.5f\n", poisson, average ? "averaged" : "plain",
-                   cells, (long long)q.unknown_count, solve_outcome_text(q.outcome), q.iterations, took.wall_s,
-                   took.cpu_s, worst, sqrt(square));
+            printf("slab,%.2f,%s,%d,%lld,%s,%d,%.2f,%.2f,%.5f,%.5f\n", poisson,
+                   average ? "averaged" : "plain", cells, (long long)q.unknown_count,
+                   solve_outcome_text(q.outcome), q.iterations, took.wall_s, took.cpu_s, worst, sqrt(square));
             fflush(stdout);
             free(got.u);
         }

@@ -9,8 +9,8 @@ static double order_of(double poisson, bool average)
     double order = log2(error[1] / error[2]);
     print_message("nu %.2f, %s: L2 error %.3g, %.3g, %.3g mm with %d, %d, %d cells, order %.2f then %.2f, "
                   "%d Newton steps\n",
-                  poisson, average ? "averaged" : "plain", error[0], error[1], error[2], cells, 2 * cells, 4 * cells,
-                  log2(error[0] / error[1]), order, iterations[2]);
+                  poisson, average ? "averaged" : "plain", error[0], error[1], error[2], cells, 2 * cells,
+                  4 * cells, log2(error[0] / error[1]), order, iterations[2]);
     return order;
 }
 

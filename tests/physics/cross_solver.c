@@ -78,8 +78,8 @@ static void compare(const slab *s, material_model model, double poisson, const c
         for (int32_t i = 0; i < 3 * rows; i++) worst = fmax(worst, fabs(q.xyz[i] - s->mesh.xyz[i] - want[i]));
         print_message("%s nu %.2f %s: %d iterations, %d factorisations, %.2f s, min J %.4f, largest "
                       "difference %.2g mm\n",
-                      material_model_name(model), poisson, way_name[way], q.iterations,
-                      q.factorisations, q.total_s, q.extremes.min_j, worst);
+                      material_model_name(model), poisson, way_name[way], q.iterations, q.factorisations,
+                      q.total_s, q.extremes.min_j, worst);
         assert_true(worst < tol);
         equilibrium_free(&q);
     }
