@@ -259,6 +259,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         if (t->l) {
             linear_stats s = linear_measure(t->l);
             q.factorisations = s.factorisations - before.factorisations;
+            q.prepare_s += s.analyse_s - before.analyse_s;
             q.factor_s = s.factor_s - before.factor_s;
             q.solve_s += s.solve_s - before.solve_s;
             q.factor_entries = s.factor_entries;
@@ -283,7 +284,7 @@ bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *p
     solver *t = NULL;
     if (!check_params(params, e) || !solver_create(problem, params->blas_threads, &t, e)) return false;
     bool ok = solver_solve(t, problem->motion, problem->start_xyz, params, out, e);
-    if (ok) out->total_s += out->prepare_s;
+    if (ok) out->total_s += t->prepare_s;
     solver_destroy(&t);
     return ok;
 }
