@@ -111,7 +111,7 @@ typedef struct equilibrium {
     contact_report contact;                    /* its energy is in energy_uj */
     double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
     double imbalance;                          /* |sum of these| over the sum of their node forces' norms */
-    double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; factor holds the ordering */
+    double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */
     int64_t unknown_count, matrix_entries, factor_entries;
     double factor_flops, memory_peak_mb;
 } equilibrium;

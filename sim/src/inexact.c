@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 static const double near_mm = 0.01;
-static const double blend_least = 1.0 / 256, blend_ratio = 4; /* as in direct.c */
 enum { CG_MOST = 200, GRID_COST = 30 /* iterations that making a preconditioner is worth */ };
 
 static bool make_grid(descent *d, const double *x, bool *ok, err *e)
@@ -115,7 +114,7 @@ static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result 
     assembly *a = &t->a;
     int64_t entries = a->column_start[a->unknown_count];
     double *true_value = COPY_ARRAY(double, a->value, entries), *mixed = NEW_ARRAY(double, entries);
-    double part = fmax(d->blend / blend_ratio, blend_least);
+    double part = direct_first_rung(d);
     bool fine = true;
     direct_fill(d, d->x, d->params->projection);
     for (*kind = HESSIAN_BLENDED; fine && r->indefinite && *kind == HESSIAN_BLENDED; part *= 2) {
