@@ -129,7 +129,7 @@ static blocks tentative(int per, int32_t nodes, const int32_t *of, int32_t count
         t.start[row + 1] = used;
     }
     size_t block = 3 * MODES;
-    double *q = NEW_ARRAY(double, block * (size_t)per * (size_t)largest), r[MODES * MODES];
+    double *q = NEW_ARRAY(double, block *(size_t)per *(size_t)largest), r[MODES * MODES];
     for (int32_t g = 0; g < count; g++) {
         int64_t first = member_start[g], size = member_start[g + 1] - first;
         for (int64_t k = 0; k < size; k++)
@@ -139,7 +139,8 @@ static blocks tentative(int per, int32_t nodes, const int32_t *of, int32_t count
         memcpy(coarse_modes + (size_t)(MODES * MODES) * (size_t)g, r, sizeof r);
         for (int64_t row = 0; row < per * size; row++) {
             double *v = t.value + 9 * t.start[per * (int64_t)member[first + row / per] + row % per];
-            for (int c = 0; c < 18; c++) v[c] = q[block * (size_t)row + 6 * (c % 9 / 3) + 3 * (c / 9) + c % 3];
+            for (int c = 0; c < 18; c++)
+                v[c] = q[block * (size_t)row + 6 * (c % 9 / 3) + 3 * (c / 9) + c % 3];
         }
     }
     free(member_start);

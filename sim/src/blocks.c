@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MULTIPLY_GRAIN = 512, PRODUCT_GRAIN = 2048 };
+enum { MULTIPLY_GRAIN = 2048, PRODUCT_GRAIN = 2048 };
 
 void blocks_free(blocks *a)
 {
@@ -40,7 +40,7 @@ typedef struct product_job {
     bool counting;
 } product_job;
 
-static int by_number(const void *p, const void *q)
+int blocks_by_number(const void *p, const void *q)
 {
     int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
     return (a > b) - (a < b);
@@ -71,7 +71,7 @@ static void product_body(int64_t begin, int64_t end, void *context)
                     place[b->column[l]] = 0;
             continue;
         }
-        qsort(c->column + first, (size_t)(count - first), sizeof *c->column, by_number);
+        qsort(c->column + first, (size_t)(count - first), sizeof *c->column, blocks_by_number);
         for (int64_t k = first; k < count; k++) place[c->column[k]] = k;
         for (int64_t k = a->start[i]; k < a->start[i + 1]; k++)
             for (int64_t l = b->start[a->column[k]]; l < b->start[a->column[k] + 1]; l++) {

@@ -13,6 +13,8 @@ typedef struct blocks {
 } blocks;
 
 void blocks_free(blocks *a);
+/* For qsort of int32_t: ascending. */
+int blocks_by_number(const void *p, const void *q);
 blocks blocks_transposed(const blocks *a);
 /* a b */
 blocks blocks_product(const blocks *a, const blocks *b);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUM_GRAIN = 8192 };
+enum { SUM_GRAIN = 32768 };
 
 typedef struct sum_job {
     const double *a, *b;
@@ -57,7 +57,9 @@ bool cg_solve(const blocks *a, multigrid *m, const double *b, double *x, double 
     memset(x, 0, (size_t)n * sizeof *x);
     while (ok && now > rel_tol * start && out->iterations < max_iterations) {
         if (!(ok = multigrid_apply(m, r, z, e))) break;
-        double next = dot(r, z, n, part), beta = out->iterations ? next / rz : 0;
+        double next = dot(r, z, n, part);
+        if (!(next > 0)) break; /* the preconditioner is not positive definite */
+        double beta = out->iterations ? next / rz : 0;
         rz = next;
         for (int64_t i = 0; i < n; i++) p[i] = z[i] + beta * p[i];
         blocks_multiply(a, p, ap);

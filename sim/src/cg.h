@@ -4,8 +4,8 @@
 
 typedef struct cg_result {
     int iterations;
-    double reduction;  /* of the residual's norm */
-    bool indefinite;   /* a direction without curvature was met: x is the last iterate before it */
+    double reduction; /* of the residual's norm */
+    bool indefinite;  /* a direction without curvature was met: x is the last iterate before it */
 } cg_result;
 
 /* x from 0 until the residual has fallen to rel_tol or max_iterations are done. While the matrix shows itself

@@ -5,8 +5,8 @@
 #include <string.h>
 
 enum {
-    GRADIENTS_FROM = 3000, /* unknowns; below, nothing takes long */
-    FACTORS_UP_TO = 400000 /* unknowns: 6 GB */
+    GRADIENTS_FROM = 30000, /* unknowns; measured: on irregular meshes below, factors are no slower */
+    FACTORS_UP_TO = 400000  /* unknowns: 6 GB */
 };
 
 /* Where tissue buckles, gradients crawl, and factors, though each costs n/500 iterations, are the way on. */
@@ -59,9 +59,10 @@ static void refresh(descent *d)
     d->out->contact.refresh_change_mm = contact_refresh_change(d->t->touch);
 }
 
-/* A direction that leads nowhere is tried again with a safer matrix, conjugate gradients that get nowhere with
- * factors from here on. *ok false: there is no matrix to step with; *step 0: no step is good. */
-static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, double *factor_s, bool *ok, err *e)
+/* A direction that leads nowhere is tried again with a safer matrix, conjugate gradients that get nowhere
+ * with factors from here on. *ok false: there is no matrix to step with; *step 0: no step is good. */
+static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, double *factor_s, bool *ok,
+                      err *e)
 {
     d->inexact = d->inexact && !have_crawled(d);
     *kind = !d->inexact && direct_reusable(d) ? HESSIAN_REUSED : HESSIAN_TRUE;
@@ -73,6 +74,10 @@ static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, dou
             if (*step > 0) return true;
             d->inexact = *ok && *kind == HESSIAN_TRUE;
             *kind = d->inexact ? HESSIAN_PROJECTED : HESSIAN_TRUE;
+            if (!d->inexact && d->t->b.unknown_count > FACTORS_UP_TO) {
+                *ok = false;
+                return true;
+            }
             continue;
         }
         *ok = true;
@@ -184,7 +189,8 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
         d->touching = false;
         point_measure(d);
     }
-    if (!rest && d->params->predictor == PREDICT_ELASTIC && !start_predict(d, x_start, &factor_s, &cg, &ok, e))
+    if (!rest && d->params->predictor == PREDICT_ELASTIC &&
+        !start_predict(d, x_start, &factor_s, &cg, &ok, e))
         return false;
     point_record(d, 0, 0, HESSIAN_TRUE, factor_s, cg);
     if (!ok || !isfinite(d->energy)) {
@@ -200,6 +206,8 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
         d->touching = true;
         d->has_factor = false;
         d->pair_count = 0;
+        /* contact changes the matrix too much from step to step for a preconditioner to last */
+        if (d->params->linear == LINEAR_AUTO && t->b.unknown_count <= FACTORS_UP_TO) d->inexact = false;
         refresh(d);
     }
     int counted = 0, *done = d->touching ? &d->out->contact.contact_iterations : &counted;

@@ -24,6 +24,8 @@ struct solver {
     multigrid *grid;
     double grid_rate; /* iterations per digit with the matrix it was made of; 0: not known yet */
     double grid_loss; /* iterations lost since, for its age */
+    double
+        *matrix_x; /* [3*nodes] where the assembly's node blocks are those of the elastic energy, else NULL */
     double prepare_s;
 };
 
@@ -45,8 +47,8 @@ typedef struct descent {
     /* L-BFGS memory, newest last */
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
-    bool touching;   /* contact counts now */
-    bool cut;        /* the last step was */
+    bool touching; /* contact counts now */
+    bool cut;      /* the last step was */
     int64_t cg_at_load;
     double blend;    /* part of the clamped matrix that the last blend needed */
     bool has_factor; /* of this load's matrix, true, blended or projected */
@@ -71,7 +73,8 @@ void point_accept(descent *d, double energy);
 /* Energy, force and residual of the present iterate, as after a change of what counts. */
 void point_measure(descent *d);
 /* Adds the present iterate to the records and tells the caller. */
-void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s, int cg_iterations);
+void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s,
+                  int cg_iterations);
 /* Step length along direction, 0 where none is good; then the accepted point is the present one. */
 double point_line_search(descent *d);
 
@@ -85,6 +88,8 @@ bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_i
                    err *e) MUST_CHECK;
 
 /* direct.c */
+/* The part of the clamped matrix with which a ladder of blends begins; each rung is twice the one before. */
+double direct_first_rung(const descent *d);
 /* Fills the assembly's matrix at x, with contact where it counts. */
 void direct_fill(descent *d, const double *x, projection how);
 /* Factorises at x, from the wanted kind on towards the safer ones. *kind says what it became; *ok false:
@@ -99,9 +104,10 @@ void direct_remember(descent *d);
 bool direct_reusable(const descent *d);
 
 /* inexact.c */
-/* Makes the matrix at x ready for inexact_solve; kind TRUE or PROJECTED. *ok false: it has no
- * preconditioner. */
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, double *seconds, err *e) MUST_CHECK;
+/* Makes the matrix at x ready for inexact_solve; kind TRUE or PROJECTED. near_enough: one of a place within
+ * 0.01 mm will do. *ok false: it has no preconditioner. */
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok,
+                    double *seconds, err *e) MUST_CHECK;
 /* u = about its inverse times b, the residual rel_tol of b. Where the matrix shows negative curvature u is
  * where the iteration had got to: u.b > 0 still. *ok false: the iteration got nowhere. */
 bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,

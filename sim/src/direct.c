@@ -5,13 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double blend_least = 1.0 / 256, blend_ratio = 4; /* ladder: its first rung, and how far below the
-                                                                 last one used the next begins */
+double direct_first_rung(const descent *d)
+{
+    static const double least = 1.0 / 256, below = 4; /* the last one used may be more than is needed now */
+    return fmax(d->blend / below, least);
+}
 
 void direct_fill(descent *d, const double *x, projection how)
 {
     assembly *a = &d->t->a;
     double begin = clock_s();
+    free(d->t->matrix_x);
+    d->t->matrix_x = NULL;
+    if (d->inexact && !d->touching && how == PROJECTION_NONE)
+        d->t->matrix_x = COPY_ARRAY(double, x, 3 * (size_t)a->node_count);
     assembly_stiffness(a, x, how);
     if (d->touching) contact_stiffness(d->t->touch, x, how == PROJECTION_NONE, a);
     assembly_matrix(a, &d->t->b);
@@ -27,7 +34,7 @@ static bool factorise_blend(descent *d, const double *true_value, bool *ok, err 
     int64_t entries = a->column_start[d->t->b.unknown_count];
     double *mixed = NEW_ARRAY(double, entries);
     bool fine = true;
-    double part = fmax(d->blend / blend_ratio, blend_least);
+    double part = direct_first_rung(d);
     for (; fine && !*ok && part < 1; part *= 2) {
         for (int64_t i = 0; i < entries; i++) mixed[i] = true_value[i] + part * (a->value[i] - true_value[i]);
         fine = linear_factor(d->t->l, mixed, 0, ok, e);
@@ -144,4 +151,3 @@ bool direct_reusable(const descent *d)
     double rate = log(d->residual_at_factor / d->residual) / d->since_factor;
     return rate > 0 && log(d->residual / d->tolerance) / rate < factor / step + 4;
 }
-

@@ -118,8 +118,7 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
 
 bool solver_order(solver *t, err *e)
 {
-    return t->l ||
-           linear_create(t->b.unknown_count, t->a.column_start, t->a.row, t->blas_threads, &t->l, e);
+    return t->l || linear_create(t->b.unknown_count, t->a.column_start, t->a.row, t->blas_threads, &t->l, e);
 }
 
 void solver_destroy(solver **t)
@@ -127,6 +126,7 @@ void solver_destroy(solver **t)
     if (!*t) return;
     multigrid_destroy(&(*t)->grid);
     blocks_free(&(*t)->k);
+    free((*t)->matrix_x);
     node_blocks_free(&(*t)->f);
     linear_destroy(&(*t)->l);
     contact_destroy(&(*t)->touch);
@@ -193,7 +193,11 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     descent d;
     descent_make(&d, t, params, &q);
     if (t->touch) contact_restart(t->touch);
-    if (!start_xyz) multigrid_destroy(&t->grid); /* what is solved from rest does not depend on plans before */
+    if (!start_xyz) { /* what is solved from rest does not depend on plans before */
+        multigrid_destroy(&t->grid);
+        free(t->matrix_x);
+        t->matrix_x = NULL;
+    }
     bool ok = true, from_guess = start_xyz != NULL;
     int eased = 0;
     double step = 1.0 / params->load_steps;
@@ -255,6 +259,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         if (t->l) {
             linear_stats s = linear_measure(t->l);
             q.factorisations = s.factorisations - before.factorisations;
+            q.prepare_s += s.analyse_s - before.analyse_s;
             q.factor_s = s.factor_s - before.factor_s;
             q.solve_s += s.solve_s - before.solve_s;
             q.factor_entries = s.factor_entries;
@@ -279,7 +284,7 @@ bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *p
     solver *t = NULL;
     if (!check_params(params, e) || !solver_create(problem, params->blas_threads, &t, e)) return false;
     bool ok = solver_solve(t, problem->motion, problem->start_xyz, params, out, e);
-    if (ok) out->total_s += out->prepare_s;
+    if (ok) out->total_s += t->prepare_s;
     solver_destroy(&t);
     return ok;
 }

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double blend_least = 1.0 / 256, blend_ratio = 4; /* as in direct.c */
-enum { CG_MOST = 200, GRID_COST = 20 /* iterations that making a preconditioner is worth */ };
+static const double near_mm = 0.01;
+enum { CG_MOST = 200, GRID_COST = 30 /* iterations that making a preconditioner is worth */ };
 
 static bool make_grid(descent *d, const double *x, bool *ok, err *e)
 {
@@ -20,11 +20,22 @@ static bool make_grid(descent *d, const double *x, bool *ok, err *e)
     return fine;
 }
 
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, double *seconds, err *e)
+static bool is_near(const double *a, const double *b, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(fabs(a[i] - b[i]) < near_mm)) return false;
+    return true;
+}
+
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok,
+                    double *seconds, err *e)
 {
     solver *t = d->t;
     double begin = clock_s();
-    direct_fill(d, x, kind == HESSIAN_TRUE ? PROJECTION_NONE : d->params->projection);
+    if (near_enough && t->matrix_x && is_near(t->matrix_x, x, 3 * (size_t)t->b.node_count))
+        assembly_matrix(&t->a, &t->b); /* directions of sliding nodes may have turned */
+    else
+        direct_fill(d, x, kind == HESSIAN_TRUE ? PROJECTION_NONE : d->params->projection);
     if (!t->k.start) {
         t->f = node_blocks_make(&t->b);
         t->k = node_blocks_matrix(&t->f, &t->a);
@@ -32,7 +43,8 @@ bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool *ok, do
     node_blocks_fill(&t->f, &t->a, t->a.value, &t->k);
     *ok = true;
     bool fine = true;
-    if (!t->grid || t->grid_loss > GRID_COST) fine = make_grid(d, x, ok, e);
+    bool old = t->grid_loss > GRID_COST || (d->touching && contact_stiffness_is_old(t->touch));
+    if (!t->grid || old) fine = make_grid(d, x, ok, e);
     if (fine && !*ok && kind == HESSIAN_TRUE) { /* of the clamped matrix, for the true one */
         direct_fill(d, x, d->params->projection);
         node_blocks_fill(&t->f, &t->a, t->a.value, &t->k);
@@ -56,8 +68,8 @@ static void note_age(solver *t, const cg_result *r)
 }
 
 /* With the present matrix. */
-static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, cg_result *r,
-                      err *e)
+static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations,
+                      cg_result *r, err *e)
 {
     solver *t = d->t;
     double begin = clock_s(), *side = NEW_ARRAY(double, 3 * (size_t)t->f.block_count),
@@ -76,7 +88,8 @@ static bool gradients(descent *d, const double *b, double rel_tol, double *u, in
     return fine;
 }
 
-bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok, err *e)
+bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,
+                   err *e)
 {
     cg_result r;
     if (!gradients(d, b, rel_tol, u, cg_iterations, &r, e)) return false;
@@ -93,15 +106,15 @@ static double forcing(const descent *d)
 }
 
 /* A direction of negative curvature was met after a step that had to be cut, so what the truncated iteration
- * finds is no good guide: between the true matrix, in which a direction of negative curvature was met, and the clamped one, the first in a
- * coarse ladder in which no such direction is met; see direct.c. */
+ * finds is no good guide: between the true matrix, in which a direction of negative curvature was met, and
+ * the clamped one, the first in a coarse ladder in which no such direction is met; see direct.c. */
 static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result *r, err *e)
 {
     solver *t = d->t;
     assembly *a = &t->a;
     int64_t entries = a->column_start[a->unknown_count];
     double *true_value = COPY_ARRAY(double, a->value, entries), *mixed = NEW_ARRAY(double, entries);
-    double part = fmax(d->blend / blend_ratio, blend_least);
+    double part = direct_first_rung(d);
     bool fine = true;
     direct_fill(d, d->x, d->params->projection);
     for (*kind = HESSIAN_BLENDED; fine && r->indefinite && *kind == HESSIAN_BLENDED; part *= 2) {
@@ -120,11 +133,12 @@ static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result 
 bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool *ok, double *seconds, err *e)
 {
     cg_result r;
-    if (!inexact_matrix(d, d->x, *kind, ok, seconds, e)) return false;
+    if (!inexact_matrix(d, d->x, *kind, false, ok, seconds, e)) return false;
     if (!*ok) return true;
     if (!gradients(d, d->g, forcing(d), d->direction, cg_iterations, &r, e)) return false;
     note_age(d->t, &r);
-    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e)) return false;
+    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e))
+        return false;
     *ok = r.indefinite || r.reduction < 0.5;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->direction[i] = -d->direction[i];
     return true;

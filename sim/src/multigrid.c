@@ -18,8 +18,8 @@ struct multigrid {
     linear *direct;
 };
 
-/* Directions without stiffness (constrained ones, modes that an aggregate lacks) become those of the identity;
- * nothing is ever asked of them. */
+/* Directions without stiffness (constrained ones, modes that an aggregate lacks) become those of the
+ * identity; nothing is ever asked of them. */
 static void fill_empty(blocks *a)
 {
     for (int64_t i = 0; i < a->rows; i++)

@@ -28,12 +28,6 @@ void node_blocks_free(node_blocks *f)
     *f = (node_blocks){0};
 }
 
-static int by_number(const void *p, const void *q)
-{
-    int32_t a = *(const int32_t *)p, b = *(const int32_t *)q;
-    return (a > b) - (a < b);
-}
-
 /* The blocks below and on the diagonal in block column `block` whose first unknown is *q, ascending; *q moves
  * on. met[block_count] holds marks of earlier columns. */
 static int32_t lower_blocks(const node_blocks *f, const assembly *a, int32_t block, int32_t *q, int32_t *met,
@@ -47,7 +41,7 @@ static int32_t lower_blocks(const node_blocks *f, const assembly *a, int32_t blo
             met[i] = block + 1;
             list[count++] = i;
         }
-    qsort(list, (size_t)count, sizeof *list, by_number);
+    qsort(list, (size_t)count, sizeof *list, blocks_by_number);
     return count;
 }
 

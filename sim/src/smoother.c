@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEGREE = 2, POWER_STEPS = 12, ROW_GRAIN = 1024 };
+enum { DEGREE = 2, POWER_STEPS = 12, ROW_GRAIN = 4096 };
 static const double smoothed_part = 15; /* eigenvalues are damped down to this part of the largest */
 static const double safety = 1.1;       /* power iteration sees the largest from below */
 

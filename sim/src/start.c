@@ -16,7 +16,8 @@ double start_reference(descent *d)
         else
             vec_copy(t->b.origin + 3 * (size_t)v, p);
     }
-    if (isfinite(point_evaluate(d, d->x_new, d->force_new, d->g_new))) return sqrt(point_dot(d->g_new, d->g_new, n));
+    if (isfinite(point_evaluate(d, d->x_new, d->force_new, d->g_new)))
+        return sqrt(point_dot(d->g_new, d->g_new, n));
     /* no energy there (a model that forbids inversion): the linear response instead */
     double *carried = NEW_ARRAY(double, 3 * (size_t)t->b.node_count);
     for (size_t i = 0; i < 3 * (size_t)t->b.node_count; i += 3) {
@@ -37,7 +38,7 @@ static bool respond(descent *d, const double *x_start, double *seconds, int *cg_
     hessian_kind kind = HESSIAN_TRUE;
     *ok = true;
     if (d->inexact) {
-        if (!inexact_matrix(d, x_start, kind, ok, seconds, e)) return false;
+        if (!inexact_matrix(d, x_start, kind, true, ok, seconds, e)) return false;
         d->inexact = *ok;
     }
     if (!d->inexact && !direct_factorise(d, x_start, &kind, ok, seconds, e)) return false;

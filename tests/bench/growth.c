@@ -1,7 +1,7 @@
 /* How time and memory of a cold solve of the curved slab to 1e-6 grow with its size. Prints CSV.
  *   growth [threads, default 1] [most cells through the thickness, default 22: 1M unknowns]
- * Each size runs in a process of its own, so that its largest memory is its own; exponent: of time between this
- * size and the smallest one (1: in proportion). */
+ * Each size runs in a process of its own, so that its largest memory is its own; exponent: of time between
+ * this size and the smallest one (1: in proportion). */
 #include "tests/bench/yardstick.h"
 #include "geometry/parallel.h"
 #include "tests/physics/block.h"
@@ -31,8 +31,8 @@ static result run(int cells, double poisson, int threads)
     equilibrium q;
     spent begin = time_now();
     if (!equilibrium_solve(&p, &params, &q, &e)) give_up(&e);
-    return (result){q.unknown_count, m.vertex_count, q.iterations, q.cg_iterations, (int)q.outcome,
-                    time_since(begin)};
+    return (result){q.unknown_count, m.vertex_count, q.iterations,
+                    q.cg_iterations, (int)q.outcome, time_since(begin)};
 }
 
 int main(int argc, char **argv)
@@ -41,7 +41,8 @@ int main(int argc, char **argv)
     int threads = argc > 1 ? atoi(argv[1]) : 1, most = argc > 2 ? atoi(argv[2]) : 22;
     if (threads < 1) return 2;
     parallel_set_threads(threads);
-    puts("nodes,unknowns,poisson,threads,outcome,iterations,cg,wall_s,cpu_s,peak_mb,wall_exponent,cpu_exponent");
+    puts("nodes,unknowns,poisson,threads,outcome,iterations,cg,wall_s,cpu_s,peak_mb,wall_exponent,cpu_"
+         "exponent");
     for (int n = 0; n < 2; n++) {
         result first = {0};
         for (size_t k = 0; k < sizeof cells / sizeof *cells && cells[k] <= most; k++) {

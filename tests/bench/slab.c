@@ -1,9 +1,9 @@
 /* Time of whole solves of the curved slab against one linear solve in the same run. Prints CSV.
  *   slab [cells through the thickness, default 10] [threads, default 1] [repeats, default 3]
- * 5 cells: 4.8k nodes; 10: 34k. Ways: cold (everything from nothing), replan (the patch is moved 1 mm further,
- * from the solution before), both to 1e-6; cold-1e-8, the default tolerance; factor (cold, by Cholesky factors
- * alone). The ratio of wall times is what a user sees; on a busy machine that of CPU times with one thread is
- * the one to trust. */
+ * 5 cells: 4.8k nodes; 10: 34k. Ways: cold (everything from nothing), replan (the patch is moved 1 mm
+ * further, from the solution before), both to 1e-6; cold-1e-8, the default tolerance; factor (cold, by
+ * Cholesky factors alone). The ratio of wall times is what a user sees; on a busy machine that of CPU times
+ * with one thread is the one to trust. */
 #include "tests/bench/yardstick.h"
 #include "geometry/parallel.h"
 #include "tests/physics/block.h"
@@ -68,7 +68,8 @@ int main(int argc, char **argv)
     err e = {0};
     double *wall = NEW_ARRAY(double, repeats), *cpu = NEW_ARRAY(double, repeats);
     puts("nodes,tets,unknowns,poisson,threads,way,outcome,iterations,cg,preconditioners,factorisations,min_j,"
-         "wall_s,cpu_s,linear_wall_s,linear_cpu_s,wall_ratio_min,wall_ratio,wall_ratio_max,cpu_ratio_min,cpu_ratio,"
+         "wall_s,cpu_s,linear_wall_s,linear_cpu_s,wall_ratio_min,wall_ratio,wall_ratio_max,cpu_ratio_min,cpu_"
+         "ratio,"
          "cpu_ratio_max");
     for (int n = 0; n < 2; n++)
         for (int way = 0; way < WAYS; way++) {
@@ -86,7 +87,8 @@ int main(int argc, char **argv)
             }
             qsort(wall, (size_t)repeats, sizeof *wall, by_value);
             qsort(cpu, (size_t)repeats, sizeof *cpu, by_value);
-            printf("%d,%d,%lld,%.2f,%d,%s,%s,%d,%d,%d,%d,%.4f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f\n",
+            printf("%d,%d,%lld,%.2f,%d,%s,%s,%d,%d,%d,%d,%.4f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.3f,%.3f,%."
+                   "3f\n",
                    m.vertex_count, m.tet_count, (long long)r.q.unknown_count, n ? 0.49 : 0.45, threads,
                    way_name[way], solve_outcome_text(r.q.outcome), r.q.iterations, r.q.cg_iterations,
                    r.q.preconditioners, r.q.factorisations, r.q.extremes.min_j, r.took.wall_s, r.took.cpu_s,

@@ -48,7 +48,8 @@ static inline spent one_linear_solve(const equilibrium_problem *p, int blas_thre
         give_up(&e);
     spent out = time_since(begin);
     linear_stats s = linear_measure(t->l);
-    fprintf(stderr, "one linear solve: %.2f s (CPU %.2f), ordering %.2f, factor %.2f, solve %.3f, %.1f GFLOP\n",
+    fprintf(stderr,
+            "one linear solve: %.2f s (CPU %.2f), ordering %.2f, factor %.2f, solve %.3f, %.1f GFLOP\n",
             out.wall_s, out.cpu_s, s.analyse_s, s.factor_s, s.solve_s, s.factor_flops * 1e-9);
     free(b);
     solver_destroy(&t);

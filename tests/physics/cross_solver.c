@@ -64,10 +64,12 @@ static void compare(const slab *s, material_model model, double poisson, const c
     double *want = read_columns(file, 3, &rows), worst = 0;
     assert_non_null(want);
     assert_int_equal(rows, s->mesh.vertex_count);
-    for (int reuse = 0; reuse < 2; reuse++) {
+    static const char *const way_name[] = {"Newton", "reused factors", "gradients"};
+    for (int way = 0; way < 3; way++) {
         equilibrium q;
         solve_params params = solve_params_default();
-        params.reuse_factor = reuse;
+        params.reuse_factor = way > 0;
+        params.linear = way == 2 ? LINEAR_GRADIENTS : LINEAR_FACTOR;
         if (model > MATERIAL_SNH)
             params.rel_tol = 1e-10; /* their own residual is small: 1e-8 leaves 2e-6 mm */
         assert_ok(equilibrium_solve(&problem, &params, &q, &e));
@@ -76,8 +78,8 @@ static void compare(const slab *s, material_model model, double poisson, const c
         for (int32_t i = 0; i < 3 * rows; i++) worst = fmax(worst, fabs(q.xyz[i] - s->mesh.xyz[i] - want[i]));
         print_message("%s nu %.2f %s: %d iterations, %d factorisations, %.2f s, min J %.4f, largest "
                       "difference %.2g mm\n",
-                      material_model_name(model), poisson, reuse ? "reused factors" : "Newton", q.iterations,
-                      q.factorisations, q.total_s, q.extremes.min_j, worst);
+                      material_model_name(model), poisson, way_name[way], q.iterations, q.factorisations,
+                      q.total_s, q.extremes.min_j, worst);
         assert_true(worst < tol);
         equilibrium_free(&q);
     }
