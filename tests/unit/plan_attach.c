@@ -89,6 +89,25 @@ static void along_a_cut_that_opens_the_moved_piece_keeps_its_tissue(void **state
     tear_down(&s);
 }
 
+static void lips_beside_a_cut_stay_lips(void **state)
+{
+    (void)state;
+    setting s;
+    set_up(&s);
+    int32_t pair[2] = {-1, -1};
+    for (int32_t v = 0; v < s.t.mesh.vertex_count; v++)
+        if (s.t.side[v] == SIDE_BONE && s.t.attach.kind[v] == NODE_FREE) pair[pair[0] >= 0] = v;
+    attach_map_free(&s.t.attach);
+    s.t.attach = attach_map_new(s.t.mesh.vertex_count, 1);
+    memcpy(s.t.attach.pair, pair, sizeof pair);
+    attach_map a = attach(&s);
+    assert_int_equal(a.pair_count, 1);
+    assert_int_equal(a.kind[pair[0]], NODE_FREE);
+    assert_int_equal(a.kind[pair[1]], NODE_FREE);
+    attach_map_free(&a);
+    tear_down(&s);
+}
+
 static void without_a_saw_nothing_changes(void **state)
 {
     (void)state;
@@ -157,6 +176,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cut_that_stays_shut_was_not_made),
         cmocka_unit_test(along_a_cut_that_opens_the_moved_piece_keeps_its_tissue),
+        cmocka_unit_test(lips_beside_a_cut_stay_lips),
         cmocka_unit_test(without_a_saw_nothing_changes),
         cmocka_unit_test(the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla),
     };
