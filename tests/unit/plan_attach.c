@@ -126,12 +126,12 @@ static void without_a_saw_nothing_changes(void **state)
 static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **state)
 {
     (void)state;
-    block b = {10, 10, 15, {20, 20, 30}, 6, 0};
+    block b = {10, 20, 15, {20, 40, 30}, 6, 0};
     tissue t = {.mesh = block_mesh(&b)};
     t.side = NEW_ARRAY(uint8_t, t.mesh.vertex_count);
     t.attach = attach_map_new(t.mesh.vertex_count, 0);
     for (int32_t v = 0; v < t.mesh.vertex_count; v++)
-        if (t.mesh.xyz[3 * (size_t)v + 1] > 19.9) t.side[v] = SIDE_HOLE;
+        if (t.mesh.xyz[3 * (size_t)v + 1] > 19.9) t.side[v] = SIDE_HOLE; /* all of the cavity */
     surface skin = body_box(-5, 0, -10, 25, 60, 35);
     segments bones = {.part[SEGMENT_MAXILLA] = body_box(-5, 15, -10, 25, 60, 0)};
     landmarks l = {0};
@@ -155,6 +155,7 @@ static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **sta
         for (int k = 0; k < 4; k++)
             vec_axpy(centre, 0.25, t.mesh.xyz + 3 * (size_t)t.mesh.tet[4 * (size_t)i + (size_t)k], centre);
         assert_true(fabs(centre[0] - 10) < 2 && centre[1] > p.dorsum_mm && centre[2] > 0);
+        assert_true(centre[1] < 15 + 12); /* not in the cavity */
         assert_true(centre[1] < 15 - p.foot_mm || centre[2] > p.foot_mm);
     }
     assert_int_equal(count, n.septum_tets);
