@@ -121,7 +121,7 @@ static void without_a_saw_nothing_changes(void **state)
     tear_down(&s);
 }
 
-/* A block as nose: x left, -y forward, z up; its back (y = 20) open to the nasal cavity, the maxilla below.
+/* A block as nose: x left, -y forward, z up; behind y = 20 the nasal cavity, the maxilla below.
  */
 static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **state)
 {
