@@ -181,7 +181,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     scene_report scene = {0};
     plan_tissue flesh = {0};
     double start = seconds();
-    if (!plan_tissue_make(c, p, moves.move, &flesh, e)) return false;
+    if (!plan_tissue_make(c, p, moves.move, in->contact, &flesh, e)) return false;
     if (!solve(&plan, &moves, p, &flesh, in, &q, &scene, e)) {
         plan_tissue_free(&flesh);
         return false;

@@ -15,10 +15,12 @@ static bool make_materials(const case_file *c, plan_tissue *t, err *e)
            material_make(MATERIAL_SNH_LOG, cartilage_kpa, cartilage_poisson, &t->material[1].material, e);
 }
 
-static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
+static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t,
+                    err *e)
 {
     lip_rest_params params = lip_rest_params_default(c->tissue.vestibule_lower_mm);
-    return lip_rest(&p->tissue, &p->segments, motion, &p->points, &p->frame, &params, &t->attach, &t->lip_nodes, e);
+    return lip_rest(&p->tissue, &p->segments, motion, &p->points, &p->frame, &params, &t->attach,
+                    &t->lip_nodes, e);
 }
 
 static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
@@ -37,13 +39,14 @@ static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_
     return true;
 }
 
-bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *out,
-                      err *e)
+bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool contact,
+                      plan_tissue *out, err *e)
 {
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
     bool ok = plan_attach(&p->tissue, &p->segments, motion, &along_cuts, &t.attach, &t.cuts, e) &&
-              add_nose(p, motion, &t, e) && add_lip(c, p, motion, &t, e) && make_materials(c, &t, e);
+              add_nose(p, motion, &t, e) && (contact || add_lip(c, p, motion, &t, e)) &&
+              make_materials(c, &t, e);
     if (ok)
         *out = t;
     else

@@ -4,7 +4,7 @@
  * The septal cartilage hangs on the nasal bones and on the bony septum, which stay with the cranium: Le Fort
  * I parts the septum from the maxilla's nasal crest and trims its foot (Peterson's Principles of Oral and
  * Maxillofacial Surgery 2022, chapter 63). Here it is the sheet of tets that the midplane of the nose cuts,
- * from the back of the nasal cavity's tissue to a line from the anterior nasal spine to the septal angle behind the tip,
+ * from the back of the tissue to a line from the anterior nasal spine to the septal angle behind the tip,
  * below the skin and clear of the maxilla. Its nodes at the back are tied to the cranium. The airways beside
  * it stay filled with soft tissue; how stiff that is (0.3 to 15 kPa) made no difference to the tip. */
 #pragma once
@@ -18,7 +18,6 @@ enum { REGION_SEPTUM = 3 }; /* beside those of tissue.h */
 typedef struct nose_params {
     double dorsum_mm; /* soft tissue over the septum's dorsal edge */
     double tip_mm;    /* from the skin of the tip to the septal angle */
-    double depth_mm; /* how far behind the line from nasion to the spine the cartilage may begin */
     double foot_mm; /* gap between the septum and a maxilla that was cut from it, before and after the move */
 } nose_params;
 

@@ -6,8 +6,10 @@
 
 nose_params nose_params_default(void)
 {
-    return (nose_params){.dorsum_mm = 4, .tip_mm = 8, .foot_mm = 5, .depth_mm = 15};
+    return (nose_params){.dorsum_mm = 4, .tip_mm = 8, .foot_mm = 5};
 }
+
+static const double opening_mm = 12; /* the rim of the nasal opening lies so far behind the spine, at most */
 
 /* The midplane through N, ANS and Pn, the line from the spine to the septal angle, and what lies around. */
 typedef struct place {
@@ -48,15 +50,15 @@ static double above_base(const place *w, const double x[3])
     return vec_dot(d, normal);
 }
 
-/* Above the base, below nasion, and in front of the bony septum. */
-static bool between_nasion_and_base(const place *w, const nose_params *p, const double x[3])
+/* Below the nasion, above the base and in the nose: not behind it, in nasal cavity or mouth. */
+static bool in_borders(const place *w, const double x[3])
 {
     double axis[3], forward[3], d[3];
     vec_sub(w->nasion, w->spine, axis);
     double length = vec_normalize(axis);
     vec_cross(w->left, axis, forward); /* left x up = forward */
     vec_sub(x, w->spine, d);
-    return above_base(w, x) > 0 && vec_dot(d, axis) < length && vec_dot(d, forward) > -p->depth_mm;
+    return above_base(w, x) > 0 && vec_dot(d, axis) < length && vec_dot(d, forward) > -opening_mm;
 }
 
 /* To the maxilla where it was and where the plan puts it: the septum's foot is trimmed to make room for it.
@@ -84,7 +86,7 @@ static bool in_septum(const place *w, const tetmesh *m, int32_t t, const nose_pa
     if (low > 0 || high < 0) return false;
     for (int k = 0; k < 4; k++)
         gap = fmin(gap, gap_to_maxilla(w, m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + (size_t)k]));
-    return gap > p->foot_mm && between_nasion_and_base(w, p, centre) &&
+    return gap > p->foot_mm && in_borders(w, centre) &&
            nearest_point(w->skin, centre, NULL, NULL) > p->dorsum_mm;
 }
 

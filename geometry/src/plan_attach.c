@@ -141,11 +141,11 @@ bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGM
         if (bones->part[s].triangle_count) ok = nearest_create(&bones->part[s], &f.part[s], e);
     if (ok) {
         *out = copy_of(&t->attach);
-        uint8_t *facing = NEW_ARRAY(uint8_t, t->mesh.vertex_count); /* lip on lip: hangs on no bone */
-        for (int32_t i = 0; i < 2 * out->pair_count; i++) facing[out->pair[i]] = 1;
+        uint8_t *paired = NEW_ARRAY(uint8_t, t->mesh.vertex_count); /* the lips hang on each other */
+        for (int32_t i = 0; i < 2 * out->pair_count; i++) paired[out->pair[i]] = 1;
         for (int32_t v = 0; f.kerf && v < t->mesh.vertex_count; v++)
-            if (t->side[v] == SIDE_BONE && !facing[v]) settle(&f, p, v, out, report);
-        free(facing);
+            if (t->side[v] == SIDE_BONE && !paired[v]) settle(&f, p, v, out, report);
+        free(paired);
         if (f.kerf) {
             pull_thorns(t, out, report);
             part_bridges(&f, out, report);

@@ -89,6 +89,25 @@ static void along_a_cut_that_opens_the_moved_piece_keeps_its_tissue(void **state
     tear_down(&s);
 }
 
+static void lips_beside_a_cut_stay_lips(void **state)
+{
+    (void)state;
+    setting s;
+    set_up(&s);
+    int32_t pair[2] = {-1, -1};
+    for (int32_t v = 0; v < s.t.mesh.vertex_count; v++)
+        if (s.t.side[v] == SIDE_BONE && s.t.attach.kind[v] == NODE_FREE) pair[pair[0] >= 0] = v;
+    attach_map_free(&s.t.attach);
+    s.t.attach = attach_map_new(s.t.mesh.vertex_count, 1);
+    memcpy(s.t.attach.pair, pair, sizeof pair);
+    attach_map a = attach(&s);
+    assert_int_equal(a.pair_count, 1);
+    assert_int_equal(a.kind[pair[0]], NODE_FREE);
+    assert_int_equal(a.kind[pair[1]], NODE_FREE);
+    attach_map_free(&a);
+    tear_down(&s);
+}
+
 static void without_a_saw_nothing_changes(void **state)
 {
     (void)state;
@@ -102,17 +121,17 @@ static void without_a_saw_nothing_changes(void **state)
     tear_down(&s);
 }
 
-/* A block as nose: x left, -y forward, z up; its back (y = 20) open to the nasal cavity, the maxilla below.
+/* A block as nose: x left, -y forward, z up; behind y = 20 the nasal cavity, the maxilla below.
  */
 static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **state)
 {
     (void)state;
-    block b = {10, 10, 15, {20, 20, 30}, 6, 0};
+    block b = {10, 20, 15, {20, 40, 30}, 6, 0};
     tissue t = {.mesh = block_mesh(&b)};
     t.side = NEW_ARRAY(uint8_t, t.mesh.vertex_count);
     t.attach = attach_map_new(t.mesh.vertex_count, 0);
     for (int32_t v = 0; v < t.mesh.vertex_count; v++)
-        if (t.mesh.xyz[3 * (size_t)v + 1] > 19.9) t.side[v] = SIDE_HOLE;
+        if (t.mesh.xyz[3 * (size_t)v + 1] > 19.9) t.side[v] = SIDE_HOLE; /* all of the cavity */
     surface skin = body_box(-5, 0, -10, 25, 60, 35);
     segments bones = {.part[SEGMENT_MAXILLA] = body_box(-5, 15, -10, 25, 60, 0)};
     landmarks l = {0};
@@ -136,6 +155,7 @@ static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **sta
         for (int k = 0; k < 4; k++)
             vec_axpy(centre, 0.25, t.mesh.xyz + 3 * (size_t)t.mesh.tet[4 * (size_t)i + (size_t)k], centre);
         assert_true(fabs(centre[0] - 10) < 2 && centre[1] > p.dorsum_mm && centre[2] > 0);
+        assert_true(centre[1] < 15 + 12); /* not in the cavity */
         assert_true(centre[1] < 15 - p.foot_mm || centre[2] > p.foot_mm);
     }
     assert_int_equal(count, n.septum_tets);
@@ -157,6 +177,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cut_that_stays_shut_was_not_made),
         cmocka_unit_test(along_a_cut_that_opens_the_moved_piece_keeps_its_tissue),
+        cmocka_unit_test(lips_beside_a_cut_stay_lips),
         cmocka_unit_test(without_a_saw_nothing_changes),
         cmocka_unit_test(the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla),
     };
