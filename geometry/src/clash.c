@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double patch_mm = 3; /* triangles are grouped by where they lie */
+static const double patch_mm = 2; /* triangles are grouped by where they lie */
 enum { SPLIT_DEPTH = 12 };
 
 typedef struct patch { /* neighbouring triangles: order[first .. first + count) */
@@ -248,9 +248,10 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
         if (!(p->kinds & kinds)) continue;
         rigid_apply(&h->to_other, p->centre, centre);
         if (hopeless(h, centre, p->radius)) continue;
-        double d = nearest_point(h->other->tree, centre, NULL, NULL) * (is_inside(h, centre) ? -1 : 1);
+        bool inside = is_inside(h, centre), rough = h->depth && !inside; /* most patches, and little can be there */
+        double d = rough ? solid_grid_clear(h->other->grid, centre) : nearest_point(h->other->tree, centre, NULL, NULL);
         /* the signed distance that the patch may reach; of a depth it is negative */
-        list[count++] = (candidate){d - p->radius, i};
+        list[count++] = (candidate){(inside ? -d : d) - p->radius, i};
     }
     qsort(list, (size_t)count, sizeof *list, by_bound);
     for (int32_t i = 0; i < count; i++) {
