@@ -3,16 +3,18 @@
 #include "geometry/vec.h"
 #include <string.h>
 
+static const double mouth_mm = 5; /* of the canal behind: there the nerve comes from outside the bone */
 static const segment_id plate[2] = {SEGMENT_PROXIMAL_LEFT, SEGMENT_PROXIMAL_RIGHT};
 
-/* Points along the canal, evenly, from its corners. */
+/* Points along the canal, evenly, from its corners, without its mouth. */
 static int spread(const double *corner, int count, double out[3 * CANAL_POINTS_MAX])
 {
     double length = 0;
     int n = 0;
     for (int i = 0; i + 1 < count; i++) length += vec_distance(corner + 3 * i, corner + 3 * (i + 1));
-    const double step = length / (CANAL_POINTS_MAX - 1);
-    double next = 0, passed = 0;
+    const double step = (length - mouth_mm) / (CANAL_POINTS_MAX - 1);
+    double next = mouth_mm, passed = 0;
+    if (!(step > 0)) return 0;
     for (int i = 0; i + 1 < count; i++) {
         const double *a = corner + 3 * i, *b = a + 3;
         double part = vec_distance(a, b);

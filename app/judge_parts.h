@@ -37,7 +37,7 @@ struct judge {
     clash_body *body[SEGMENT_COUNT];
     judge_cut cut[JUDGE_CUTS];
     judge_pair pair[JUDGE_PAIRS];
-    double canal[2][3 * CANAL_POINTS_MAX]; /* left, right: the estimated course, one point per millimetre or so */
+    double canal[2][3 * CANAL_POINTS_MAX]; /* left, right: the estimated course, one point per millimetre or so, without its mouth */
     int canal_count[2];
     const char *no_crowns; /* why the crowns are not known; NULL: they are */
     double tooth_rest_mm;  /* overlap of the crowns in the scan */

@@ -117,6 +117,13 @@ static void paint_gap(const brush *b, double x[3][3])
     if (gap < parted_mm) return;
     for (int c = 0; c < 3; c++) rgb[c] = pale[c] + share * (blue[c] - pale[c]);
     add_triangle(b->to, x, &b->move, rgb);
+    double back[3][3]; /* to be seen from behind too */
+    vec_sub(x[1], x[0], e1);
+    vec_sub(x[2], x[0], e2);
+    vec_cross(e1, e2, n);
+    vec_normalize(n);
+    for (int k = 0; k < 3; k++) vec_axpy(x[2 - k], -0.05, n, back[k]);
+    add_triangle(b->to, back, &b->move, rgb);
 }
 
 static void paint(const surface *s, const brush *b, void (*with)(const brush *, double[3][3]))
@@ -216,7 +223,7 @@ static bool draw(const scene *s, studio *st, camera *view, bool names, image *ou
     if (!picture_render(st, &p, &style, out, NULL, e) || !pen_open(out, &fonts, &ink, e)) return false;
     double scale = camera_scale(view, TILE_HEIGHT);
     for (int i = 0; names && i < s->mark_count && i < 12; i++)
-        pen_text(ink, 14, 52 + 18 * i, LABEL_LEFT, 14, false, s->marks[i].rgb, s->text[i]);
+        pen_text(ink, 14, 66 + 18 * i, LABEL_LEFT, 14, false, s->marks[i].rgb, s->text[i]);
     label_sides(ink, 0, 0, TILE_WIDTH, TILE_HEIGHT, 20, view, &s->j->prepared->frame);
     label_scale_bar(ink, 18, TILE_HEIGHT - 20, scale, label_scale_length(scale, TILE_WIDTH), 16);
     pen_close(&ink);
@@ -257,7 +264,7 @@ static bool add_legend(image *im, err *e)
                             {"mandibular canal (estimated)", {yellow[0], yellow[1], yellow[2]}},
                             {"ball: caution; red ball: stop", {orange[0], orange[1], orange[2]}}};
     if (!pen_open(im, &fonts, &ink, e)) return false;
-    label_legend(ink, 14, 40, 16, entry, 4);
+    label_legend(ink, 14, 48, 16, entry, 4);
     pen_close(&ink);
     return true;
 }

@@ -7,7 +7,7 @@
 
 static const double crown_mm = 7, beyond_mm = 5; /* of the cusps' plane, towards the gum and away from it */
 static const double behind_u6_mm = 18, behind_l7_mm = 3; /* mesiobuccal cusp of the first molar to the arch's end */
-static const double touch_mm = 0.3, bite_spacing_mm = 0.8, apart_mm = 5;
+static const double touch_mm = 0.3, sight_mm = 10, bite_spacing_mm = 0.8, apart_mm = 5;
 
 /* The plane of the cusps (up: towards the upper teeth) and how far back the arch goes. */
 static bool cusp_plane(const prepared *p, bool upper, double at[3], double up[3], double *end)
@@ -129,7 +129,12 @@ void judge_teeth(const judge *j, const plan_moves *m, judgement *out)
     clash_spot spot = {0};
     if (judge_relative(m, SEGMENT_MAXILLA, SEGMENT_DISTAL, &rel))
         spot = clash_depth(j->body[SEGMENT_MAXILLA], j->body[SEGMENT_DISTAL], &rel, KIND_CROWN);
-    finding *f = judgement_add(out, j->patient, LIMIT_TOOTH_OVERLAP, "", fmax(spot.mm - j->tooth_rest_mm, 0), false,
+    double value = fmax(spot.mm - j->tooth_rest_mm, 0);
+    if (!spot.found) {
+        spot = clash_distance(j->body[SEGMENT_MAXILLA], j->body[SEGMENT_DISTAL], &rel, KIND_CROWN, sight_mm);
+        value = spot.mm > 0 ? -spot.mm : 0;
+    }
+    finding *f = judgement_add(out, j->patient, LIMIT_TOOTH_OVERLAP, "", value, false,
                                j->tooth_rest_mm > 0.1 ? "beyond the overlap that the scan itself shows" : NULL);
     f->segment_a = SEGMENT_MAXILLA;
     f->segment_b = SEGMENT_DISTAL;

@@ -82,7 +82,7 @@
       "own limit, no published number")                                                                               \
     X(INTERFERENCE, interference_mm, "mm", 0, 1, 0, 3, "bones in each other's way away from a cut, depth",            \
       "own limit, no published number")                                                                               \
-    X(TOOTH_OVERLAP, tooth_overlap_mm, "mm", 0, 1, 0, 3, "upper and lower teeth in each other, depth",                \
+    X(TOOTH_OVERLAP, tooth_overlap_mm, "mm", -LIMIT_OPEN, 1, -LIMIT_OPEN, 3, "teeth in each other, depth (negative: apart)", \
       "own limit, no published number; 1 mm is the noise of a scan's crowns")
 
 /* Of the bite and the face's symmetry; goals more than limits, so that none of them stops. */

@@ -217,7 +217,7 @@ bool plan_file_read(const char *path, const case_file *c, plan_file *out, issue_
         refuse_unbuilt(&f, &p, issues);
         const json_t *why = json_object_get(f.root, "override");
         if (json_is_string(why) && strspn(json_string_value(why), " \t") == json_string_length(why))
-            fields_issue(&f, "/override", issues, "is empty; it must say why limits may be passed");
+            fields_issue(&f, "/override", issues, "is empty; it must say why a limit may be exceeded");
         issue_sort_by_line(issues, from);
         if (!*p.name) {
             const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path,

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double patch_mm = 3; /* triangles are grouped by where they lie */
+static const double patch_mm = 2; /* triangles are grouped by where they lie */
 enum { SPLIT_DEPTH = 12 };
 
 typedef struct patch { /* neighbouring triangles: order[first .. first + count) */
@@ -139,7 +139,7 @@ double clash_volume(const clash_body *still, const clash_body *moved, const rigi
  * run side by side nothing is bounded away, so that the search ends at small triangles: the extremes of flat facets lie at
  * corners, which are tried, and between tried points of a curved one the error is of second order. ---- */
 
-static const double small_mm = 0.5, settled_mm = 1, near_mm = 1.5, finest_distance_mm = 0.05, finest_share = 0.3;
+static const double small_mm = 0.7, settled_mm = 1, near_mm = 1.5, finest_distance_mm = 0.05, finest_share = 0.3;
 
 typedef struct hunt {
     const clash_body *other;
@@ -189,7 +189,8 @@ static void split(hunt *h, double x[3][3], int level)
     for (int c = 0; c < 3; c++) middle[c] = (x[0][c] + x[1][c] + x[2][c]) / 3;
     for (int k = 0; k < 3; k++) radius = fmax(radius, vec_distance(middle, x[k]));
     if (hopeless(h, middle, radius)) return;
-    if (h->depth && radius <= settled_mm && !is_inside(h, middle)) { /* the usual case is settled without distances */
+    if (h->depth && radius <= fmax(settled_mm, h->best) && !is_inside(h, middle)) { /* settled without distances */
+        if (radius <= h->best) return;
         for (int k = 0; k < 3; k++)
             if (is_inside(h, x[k])) (void)try_point(h, x[k]);
         return;
@@ -248,9 +249,10 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
         if (!(p->kinds & kinds)) continue;
         rigid_apply(&h->to_other, p->centre, centre);
         if (hopeless(h, centre, p->radius)) continue;
-        double d = nearest_point(h->other->tree, centre, NULL, NULL) * (is_inside(h, centre) ? -1 : 1);
+        bool inside = is_inside(h, centre), rough = h->depth && !inside; /* most patches, and little can be there */
+        double d = rough ? solid_grid_clear(h->other->grid, centre) : nearest_point(h->other->tree, centre, NULL, NULL);
         /* the signed distance that the patch may reach; of a depth it is negative */
-        list[count++] = (candidate){d - p->radius, i};
+        list[count++] = (candidate){(inside ? -d : d) - p->radius, i};
     }
     qsort(list, (size_t)count, sizeof *list, by_bound);
     for (int32_t i = 0; i < count; i++) {

@@ -127,22 +127,31 @@ static void sort_triangles(solid_grid *g, size_t cells)
 /* Distances to full cubes, by two sweeps over half of the neighbours each. */
 static void sweep(solid_grid *g, int way)
 {
-    int32_t i[3], k[3];
+    int32_t i[3];
+    const int64_t row = g->n[0], layer = row * g->n[1];
+    int64_t step[13];
+    int offset[13][3];
+    for (int d = 0; d < 13; d++) { /* the neighbours already passed */
+        for (int c = 0, rest = d; c < 3; c++, rest /= 3) offset[d][c] = way * (rest % 3 - 1);
+        step[d] = offset[d][0] + row * offset[d][1] + layer * offset[d][2];
+    }
     for (int32_t a = 0; a < g->n[2]; a++)
         for (int32_t b = 0; b < g->n[1]; b++)
             for (int32_t c = 0; c < g->n[0]; c++) {
                 i[2] = way > 0 ? a : g->n[2] - 1 - a;
                 i[1] = way > 0 ? b : g->n[1] - 1 - b;
                 i[0] = way > 0 ? c : g->n[0] - 1 - c;
-                size_t at = cell(g, i);
-                int least = g->away[at];
-                for (int d = 0; d < 13 && least > 1; d++) { /* the neighbours already passed */
-                    k[0] = i[0] + way * (d % 3 - 1);
-                    k[1] = i[1] + way * (d / 3 % 3 - 1);
-                    k[2] = i[2] + way * (d / 9 - 1);
-                    if (within(g, k) && g->away[cell(g, k)] + 1 < least) least = g->away[cell(g, k)] + 1;
+                uint8_t *at = g->away + cell(g, i);
+                int least = *at;
+                if (!least) continue;
+                bool edge = a == 0 || b == 0 || c == 0 || a == g->n[2] - 1 || b == g->n[1] - 1 || c == g->n[0] - 1;
+                for (int d = 0; d < 13; d++) {
+                    const int32_t k[3] = {i[0] + offset[d][0], i[1] + offset[d][1], i[2] + offset[d][2]};
+                    if (edge && !within(g, k)) continue;
+                    int beside = at[step[d]] + 1;
+                    least = beside < least ? beside : least;
                 }
-                g->away[at] = (uint8_t)least;
+                *at = (uint8_t)least;
             }
 }
 
