@@ -130,7 +130,7 @@ static bool run(const audit_space_options *in, audit *a, err *e)
         a->solved = show_solves;
         a->interrupted = was_interrupted;
         a->context = (void *)&in->common;
-        ok = audit_bones(a, &j, e) && (in->geometry_only || audit_tissue(a, &j, e));
+        ok = audit_bones(a, &j, e) && (!a->settings.tissue || audit_tissue(a, &j, e));
         sample_set_sort(&a->points);
         tissue_set_sort(&a->tissue);
         ok = ok && write_all(in, a, e);
@@ -168,7 +168,7 @@ int command_audit_space(const audit_space_options *in)
     audit a = {0};
     output_dir dir = {0};
     issue_list issues = {0};
-    audit_settings settings = {.spacing = in->spacing, .tolerance = in->tolerance};
+    audit_settings settings = {.spacing = in->spacing, .tolerance = in->tolerance, .tissue = !in->geometry_only};
     /* what is wrong in the words is told before the minutes of preparation */
     bool ok = case_file_load(in->case_path, &c, &e) && landmarks_read(c.landmarks, &points, NULL, &e);
     for (int i = 0; ok && i < in->word_count; i++) ok = take_word(in->word[i], in->axis_count[i], &c, &settings, &e);

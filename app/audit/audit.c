@@ -53,6 +53,8 @@ void audit_key(const audit *a, char key[HASH_TEXT_SIZE])
     content_hash_bytes(h, a->patient->limits, sizeof a->patient->limits);
     content_hash_number(h, "spacing", s->spacing);
     content_hash_number(h, "tolerance", s->tolerance);
+    content_hash_number(h, "tissue", s->tissue);
+    content_hash_number(h, "load steps", a->base.load_steps);
     for (int k = 0; k < s->control_count; k++) content_hash_number(h, s->control[k].name, a->base_value[k]);
     content_hash_bytes(h, s->request, (size_t)s->request_count * sizeof *s->request);
     plan_moves moves;
@@ -87,14 +89,16 @@ bool audit_judge(const audit *a, const int32_t at[SAMPLE_AXES_MAX], judgement *o
 const finding *audit_decisive(const audit *a, const judgement *j, limit_level *level)
 {
     const finding *best = NULL;
+    double least = 0;
     *level = LIMIT_NOT_JUDGED;
     for (int i = 0; i < j->count; i++) {
         const finding *f = &j->finding[i];
         bool usual = f->level > LIMIT_FINE && f->level <= a->throughout[f->limit];
         limit_level mine = usual ? LIMIT_FINE : f->level;
-        if (usual && best) continue;
-        if (best && (mine < *level || (mine == *level && !(f->margin < best->margin)))) continue;
+        double margin = usual ? HUGE_VAL : f->margin;
+        if (best && (mine < *level || (mine == *level && !(margin < least)))) continue;
         best = f;
+        least = margin;
         *level = mine;
     }
     return best;

@@ -16,6 +16,7 @@ typedef struct audit_request { /* one control: a line; two: a map; three: a box 
 typedef struct audit_settings {
     double spacing;   /* of the maps, mm or degrees */
     double tolerance; /* of the bounds */
+    bool tissue;      /* audit_tissue will be asked */
     int control_count;
     control control[SAMPLE_AXES_MAX];
     int request_count;
