@@ -57,7 +57,6 @@ typedef struct audit {
     /* private */
     judge *judge;
     journal *journal;
-    region_material material;
     int64_t expected; /* points in all, a guess */
     double start_s, told_s;
     void (*progress)(int64_t done, int64_t expected, double left_s, void *context);
@@ -77,7 +76,7 @@ void audit_key(const audit *a, char key[HASH_TEXT_SIZE]);
 bool audit_bones(audit *a, journal *j, err *e) MUST_CHECK;
 /* Then asks the soft tissue at the rim of what bone and teeth allow. Inside the rim it is taken to do what it does on it:
  * a move of the same direction that is smaller strains it less. */
-bool audit_tissue(audit *a, journal *j, err *e) MUST_CHECK;
+bool audit_tissue(audit *a, journal *to, err *e) MUST_CHECK;
 /* For journal_open: takes over what was judged earlier; context is the audit. */
 bool audit_read_record(uint32_t kind, const void *bytes, size_t size, void *context, err *e);
 

@@ -3,6 +3,7 @@
  * halved. Between neighbouring rays the rim runs straight. */
 #include "app/audit/audit.h"
 #include "app/judge_tissue.h"
+#include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include <math.h>
 #include <stddef.h>
@@ -214,25 +215,30 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 
 /* ---- */
 
-static bool motion_at(const int32_t *at, void *context, rigid out[SEGMENT_COUNT], err *e)
+/* Solves what predict solves, the whole of it. What needs the face (incisor show, lower face) only cautions and is left
+ * to predict. */
+static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
 {
-    judgement j;
+    audit *a = context;
+    judgement bones, j = {.reason = -1};
     plan_moves moves;
-    if (!audit_judge(context, at, &j, &moves, e)) return false;
-    memcpy(out, moves.move, sizeof moves.move);
-    return true;
-}
-
-/* What needs the face (incisor show, lower face) only cautions and is left to predict. */
-static bool judge_solve(const int32_t *at, const equilibrium *q, void *context, verdict *out, err *e)
-{
-    const audit *a = context;
-    judgement j = {.reason = -1};
-    (void)at;
-    (void)e;
-    judge_tissue(a->patient, a->prepared, q, NULL, &j);
-    *out = audit_verdict(a, &j);
-    return true;
+    plan_tissue t = {0};
+    if (!audit_judge(a, at, &bones, &moves, e) || !plan_tissue_make(a->patient, a->prepared, moves.move, &t, e))
+        return false;
+    equilibrium_problem problem = {.mesh = &t.mesh, .attach = &t.attach, .materials = t.material,
+                                   .material_count = t.material_count, .start_xyz = start_xyz};
+    memcpy(problem.motion, moves.move, sizeof problem.motion);
+    solve_params params = solve_params_default();
+    params.load_steps = a->base.load_steps;
+    params.interrupted = audit_stopped;
+    params.context = a;
+    bool ok = equilibrium_solve(&problem, &params, out, e);
+    if (ok) {
+        judge_tissue(a->patient, a->prepared, out, NULL, &j);
+        *v = audit_verdict(a, &j);
+    }
+    plan_tissue_free(&t);
+    return ok;
 }
 
 static void tell_round(int done, int count, void *context)
@@ -243,34 +249,24 @@ static void tell_round(int done, int count, void *context)
 
 void audit_tissue_start(audit *a)
 {
-    a->tissue = (tissue_set){.problem = {.mesh = &a->prepared->tissue.mesh,
-                                         .attach = &a->prepared->tissue.attach,
-                                         .materials = &a->material,
-                                         .material_count = 1},
-                             .params = solve_params_default(),
-                             .motion = motion_at,
-                             .judge = judge_solve,
+    a->tissue = (tissue_set){.mesh = &a->prepared->tissue.mesh,
+                             .solve = solve_point,
                              .keep = keep_tissue,
                              .progress = tell_round,
                              .context = a};
-    a->tissue.params.load_steps = a->base.load_steps;
-    a->tissue.params.interrupted = audit_stopped;
-    a->tissue.params.context = a;
     tissue_set_start(&a->tissue);
 }
 
-bool audit_tissue(audit *a, journal *j, err *e)
+bool audit_tissue(audit *a, journal *to, err *e)
 {
-    const case_material *m = &a->patient->material;
-    a->journal = j;
-    a->tissue_asked = true;
-    a->material = (region_material){.region = REGION_ANY};
-    if (!material_make(MATERIAL_SNH_LOG, m->young_kpa, m->poisson, &a->material.material, e)) return false;
     int32_t base[SAMPLE_AXES_MAX] = {0};
-    rigid motion[SEGMENT_COUNT];
-    if (!motion_at(base, a, motion, e)) return false;
+    judgement j;
+    plan_moves moves;
+    a->journal = to;
+    a->tissue_asked = true;
+    if (!audit_judge(a, base, &j, &moves, e)) return false;
     a->tissue.starts_at_rest = true;
-    for (int s = 0; s < SEGMENT_COUNT; s++) a->tissue.starts_at_rest &= rigid_is_identity(&motion[s]);
+    for (int s = 0; s < SEGMENT_COUNT; s++) a->tissue.starts_at_rest &= rigid_is_identity(&moves.move[s]);
     if (!a->tissue.starts_at_rest && !tissue_set_ask(&a->tissue, base, 1, e)) return false;
     make_rays(a);
     struct halving h = {.a = a, .good = NEW_ARRAY(int, a->ray_count), .bad = NEW_ARRAY(int, a->ray_count)};

@@ -9,7 +9,7 @@ static const size_t place_size = SAMPLE_AXES_MAX * sizeof(int32_t);
 
 void tissue_set_start(tissue_set *t)
 {
-    t->count = t->rounds = t->idle_count = 0;
+    t->count = t->rounds = 0;
     t->point = NULL;
     pthread_mutex_init(&t->lock, NULL);
 }
@@ -18,7 +18,6 @@ void tissue_set_free(tissue_set *t)
 {
     for (int i = 0; i < t->count; i++) free(t->point[i].shift);
     free(t->point);
-    for (int i = 0; i < t->idle_count; i++) solver_destroy(&t->idle[i]);
     pthread_mutex_destroy(&t->lock);
     *t = (tissue_set){0};
 }
@@ -39,7 +38,7 @@ static void add(tissue_set *t, const tissue_point *p)
 void tissue_set_put(tissue_set *t, const tissue_point *p)
 {
     tissue_point own = *p;
-    own.shift = COPY_ARRAY(float, p->shift, 3 * (size_t)t->problem.mesh->vertex_count);
+    own.shift = COPY_ARRAY(float, p->shift, 3 * (size_t)t->mesh->vertex_count);
     add(t, &own);
 }
 
@@ -67,27 +66,6 @@ static const tissue_point *neighbour(const tissue_set *t, const int32_t *at, int
     return best;
 }
 
-/* A solver that nobody uses, a new one if there is none. */
-static bool take_solver(tissue_set *t, solver **out, err *e)
-{
-    *out = NULL;
-    pthread_mutex_lock(&t->lock);
-    if (t->idle_count) *out = t->idle[--t->idle_count];
-    pthread_mutex_unlock(&t->lock);
-    return *out || solver_create(&t->problem, t->params.blas_threads, out, e);
-}
-
-static void give_solver(tissue_set *t, solver *s)
-{
-    pthread_mutex_lock(&t->lock);
-    if (t->idle_count < TISSUE_LANES_MAX) {
-        t->idle[t->idle_count++] = s;
-        s = NULL;
-    }
-    pthread_mutex_unlock(&t->lock);
-    solver_destroy(&s);
-}
-
 struct round {
     tissue_set *set;
     tissue_point *point;
@@ -99,26 +77,21 @@ struct round {
 static bool solve(const struct round *r, tissue_point *p, err *e)
 {
     tissue_set *t = r->set;
-    size_t n = 3 * (size_t)t->problem.mesh->vertex_count;
+    size_t n = 3 * (size_t)t->mesh->vertex_count;
     const tissue_point *from = neighbour(t, p->at, r->number);
     double *start = from ? NEW_ARRAY(double, n) : NULL;
-    for (size_t i = 0; from && i < n; i++) start[i] = t->problem.mesh->xyz[i] + (double)from->shift[i];
-    rigid motion[SEGMENT_COUNT];
-    solver *s = NULL;
+    for (size_t i = 0; from && i < n; i++) start[i] = t->mesh->xyz[i] + (double)from->shift[i];
     equilibrium q = {0};
-    bool ok = t->motion(p->at, t->context, motion, e) && take_solver(t, &s, e) &&
-              solver_solve(s, motion, start, &t->params, &q, e);
+    bool ok = t->solve(p->at, start, t->context, &q, &p->v, e);
     if (ok && q.outcome == STOPPED_INTERRUPTED) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
-    ok = ok && t->judge(p->at, &q, t->context, &p->v, e);
     if (ok) {
         p->round = r->number;
         p->iterations = q.iterations;
         p->min_j = q.extremes.min_j;
         p->warm = from != NULL;
         p->shift = NEW_ARRAY(float, n);
-        for (size_t i = 0; i < n; i++) p->shift[i] = (float)(q.xyz[i] - t->problem.mesh->xyz[i]);
+        for (size_t i = 0; i < n; i++) p->shift[i] = (float)(q.xyz[i] - t->mesh->xyz[i]);
     }
-    if (s) give_solver(t, s);
     equilibrium_free(&q);
     free(start);
     return ok;

@@ -9,8 +9,6 @@
 #include "sim/newton.h"
 #include <pthread.h>
 
-enum { TISSUE_LANES_MAX = 64 };
-
 typedef struct tissue_point {
     int32_t at[SAMPLE_AXES_MAX];
     verdict v;
@@ -21,12 +19,10 @@ typedef struct tissue_point {
 
 typedef struct tissue_set {
     /* What the caller sets. */
-    equilibrium_problem problem; /* but motion and start */
-    solve_params params;         /* for a start from rest */
-    bool starts_at_rest;         /* the point 0 is the tissue at rest: points nearest to it start there */
-    /* The moves at a point; and the verdict on the tissue there. From many threads. */
-    bool (*motion)(const int32_t *at, void *context, rigid out[SEGMENT_COUNT], err *e);
-    bool (*judge)(const int32_t *at, const equilibrium *q, void *context, verdict *out, err *e);
+    const tetmesh *mesh;  /* at rest */
+    bool starts_at_rest;  /* the point 0 is the tissue at rest: points nearest to it start there */
+    /* Solves a point from start_xyz[3*nodes], from rest where that is NULL, and judges the tissue. From many threads. */
+    bool (*solve)(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e);
     bool (*keep)(const tissue_point *p, void *context, err *e); /* NULL, or told each new point, one at a time */
     void (*progress)(int done, int count, void *context);       /* of a round; NULL or told */
     void *context;
@@ -34,8 +30,6 @@ typedef struct tissue_set {
     int count, rounds;
     tissue_point *point; /* [count] */
     /* private */
-    int idle_count;
-    solver *idle[TISSUE_LANES_MAX];
     pthread_mutex_t lock;
 } tissue_set;
 
