@@ -34,7 +34,7 @@ void mesh_weld(surface *s, mesh_file_report *report);
  * written to .ply only. The file appears whole or not at all. Refuses (ERR_USAGE) other extensions. */
 bool mesh_write_surface(const surface *s, const char *path, err *e) MUST_CHECK;
 
-typedef struct point_array { /* a named array of doubles per node, for VTU files */
+typedef struct point_array { /* a named array of doubles per node, for VTK files */
     const char *name;
     int components;
     const double *value; /* [components*vertex_count] */

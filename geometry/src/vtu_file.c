@@ -1,34 +1,11 @@
 #include "geometry/mesh_file.h"
 #include "geometry/src/file_name.h"
+#include "geometry/src/vtk_xml.h"
 #include "geometry/write_whole.h"
-#include <assert.h>
 #include <inttypes.h>
 #include <string.h>
 
 enum { VTK_TETRA = 10 };
-
-/* Announces a block of the appended part and moves the offset past it (an 8-byte length, then the data). */
-static void announce(FILE *to, const char *type, const char *name, int components, uint64_t bytes,
-                     uint64_t *offset)
-{
-    fprintf(
-        to,
-        "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
-        "\"/>\n",
-        type, name, components, *offset);
-    *offset += 8 + bytes;
-}
-
-static void put_block(FILE *to, const void *data, uint64_t bytes)
-{
-    (void)!fwrite(&bytes, sizeof bytes, 1, to);
-    (void)!fwrite(data, 1, (size_t)bytes, to);
-}
-
-static bool plain_name(const char *name)
-{
-    return *name && !name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-")];
-}
 
 static void write_header(const tetmesh *m, const point_array *arrays, int array_count, FILE *to)
 {
@@ -43,27 +20,24 @@ static void write_header(const tetmesh *m, const point_array *arrays, int array_
             "</FieldData>\n<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64
             "\">\n<PointData%s>\n",
             n, cells, vectors);
-    for (int i = 0; i < array_count; i++)
-        announce(to, "Float64", arrays[i].name, arrays[i].components, 8 * n * (uint64_t)arrays[i].components,
-                 &offset);
+    offset = vtk_announce_arrays(to, arrays, array_count, n, offset);
     fprintf(to, "</PointData>\n<CellData Scalars=\"region\">\n");
-    announce(to, "Int32", "region", 1, 4 * cells, &offset);
+    offset = vtk_announce(to, "Int32", "region", 1, 4 * cells, offset);
     fprintf(to, "</CellData>\n<Points>\n");
-    announce(to, "Float64", "Points", 3, 24 * n, &offset);
+    offset = vtk_announce(to, "Float64", "Points", 3, 24 * n, offset);
     fprintf(to, "</Points>\n<Cells>\n");
-    announce(to, "Int64", "connectivity", 1, 32 * cells, &offset);
-    announce(to, "Int64", "offsets", 1, 8 * cells, &offset);
-    announce(to, "UInt8", "types", 1, cells, &offset);
+    offset = vtk_announce(to, "Int64", "connectivity", 1, 32 * cells, offset);
+    offset = vtk_announce(to, "Int64", "offsets", 1, 8 * cells, offset);
+    vtk_announce(to, "UInt8", "types", 1, cells, offset);
     fprintf(to, "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 }
 
 static void write_data(const tetmesh *m, const point_array *arrays, int array_count, FILE *to)
 {
     uint64_t n = (uint64_t)m->vertex_count, cells = (uint64_t)m->tet_count;
-    for (int i = 0; i < array_count; i++)
-        put_block(to, arrays[i].value, 8 * n * (uint64_t)arrays[i].components);
-    put_block(to, m->region, 4 * cells);
-    put_block(to, m->xyz, 24 * n);
+    vtk_put_arrays(to, arrays, array_count, n);
+    vtk_put_block(to, m->region, 4 * cells);
+    vtk_put_block(to, m->xyz, 24 * n);
     uint64_t bytes = 32 * cells;
     (void)!fwrite(&bytes, sizeof bytes, 1, to);
     for (uint64_t i = 0; i < 4 * cells; i++) (void)!fwrite(&(int64_t){m->tet[i]}, 8, 1, to);
@@ -79,7 +53,6 @@ bool mesh_write_tets(const tetmesh *m, const point_array *arrays, int array_coun
 {
     if (!file_name_ends(path, ".vtu"))
         return err_at(e, ERR_USAGE, path, 0, NULL, "unknown kind of file for tetrahedra; written is .vtu");
-    for (int i = 0; i < array_count; i++) assert(plain_name(arrays[i].name) && arrays[i].components > 0);
     whole_file w;
     if (!whole_file_open(path, &w, e)) return false;
     write_header(m, arrays, array_count, w.stream);

@@ -77,3 +77,6 @@ if [ -z "$pictures" ]; then
 fi
 # an output in use is not replaced unasked
 if "$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" >/dev/null 2>&1; then fail "an old output was replaced"; fi
+# and the bounds of its controls, on the synthetic head, which is prepared by now
+if [ -n "$pictures" ]; then exit 0; fi
+sh "$(dirname "$0")/run_audit.sh" "$gnathos" "$work/case"
