@@ -7,8 +7,9 @@ const hash = text => `'sha256-${createHash("sha256").update(text).digest("base64
 if (/<\/(script|style)/i.test(script + style)) throw new Error("a closing tag inside the script or the style");
 
 const parts = {
-    "{{policy}}": `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data:; ` +
-                  "base-uri 'none'; form-action 'none'",
+    "{{policy}}":
+        `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data:; ` +
+        "base-uri 'none'; form-action 'none'",
     "{{style}}": style,
     "{{script}}": script,
 };

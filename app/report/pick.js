@@ -32,10 +32,18 @@ export class Picker {
      * what is nearest there, or null.
      */
     pick(scene, camera, meshes, points, x, y) {
-        const { renderer } = this, own = meshes.map(m => m.material), alpha = renderer.getClearAlpha(), shown = points.visible;
+        const { renderer } = this,
+            own = meshes.map(m => m.material),
+            alpha = renderer.getClearAlpha(),
+            shown = points.visible;
         meshes.forEach((mesh, i) => {
-            this.materials[i] ??= new ShaderMaterial({ glslVersion: GLSL3, vertexShader, fragmentShader, side: DoubleSide,
-                                                       uniforms: { mesh: { value: i + 1 } } });
+            this.materials[i] ??= new ShaderMaterial({
+                glslVersion: GLSL3,
+                vertexShader,
+                fragmentShader,
+                side: DoubleSide,
+                uniforms: { mesh: { value: i + 1 } },
+            });
             mesh.material = this.materials[i];
         });
         points.visible = false;
@@ -52,7 +60,9 @@ export class Picker {
         renderer.setClearColor(this.clear, alpha);
         camera.clearViewOffset();
         points.visible = shown;
-        meshes.forEach((mesh, i) => { mesh.material = own[i]; });
-        return code[3] ? { mesh: meshes[code[3] - 1], vertex: code[0] | code[1] << 8 | code[2] << 16 } : null;
+        meshes.forEach((mesh, i) => {
+            mesh.material = own[i];
+        });
+        return code[3] ? { mesh: meshes[code[3] - 1], vertex: code[0] | (code[1] << 8) | (code[2] << 16) } : null;
     }
 }

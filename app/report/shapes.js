@@ -19,9 +19,12 @@ function reader(bytes) {
     return (count, stride) => {
         const out = new Int32Array(count);
         for (let i = 0; i < count; i++) {
-            const folded = bytes[at + i] | bytes[at + count + i] << 8 | bytes[at + 2 * count + i] << 16 |
-                           bytes[at + 3 * count + i] << 24;
-            const step = folded >>> 1 ^ -(folded & 1);
+            const folded =
+                bytes[at + i] |
+                (bytes[at + count + i] << 8) |
+                (bytes[at + 2 * count + i] << 16) |
+                (bytes[at + 3 * count + i] << 24);
+            const step = (folded >>> 1) ^ -(folded & 1);
             out[i] = step + (i < stride ? 0 : out[i - stride]);
         }
         at += 4 * count;

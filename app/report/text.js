@@ -4,7 +4,8 @@
 export function make(tag, attributes = {}, ...children) {
     const element = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes))
-        if (value !== null && value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
+        if (value !== null && value !== undefined && value !== false)
+            element.setAttribute(name, value === true ? "" : value);
     element.append(...children.flat().filter(c => c !== null && c !== undefined));
     return element;
 }
@@ -37,8 +38,13 @@ export function scientific(x) {
 }
 
 export const words = {
-    cranium: "Cranium", maxilla: "Maxilla", distal: "Mandible, distal segment",
-    proximal_left: "Mandible, left proximal", proximal_right: "Mandible, right proximal", chin: "Chin", skin: "Skin",
+    cranium: "Cranium",
+    maxilla: "Maxilla",
+    distal: "Mandible, distal segment",
+    proximal_left: "Mandible, left proximal",
+    proximal_right: "Mandible, right proximal",
+    chin: "Chin",
+    skin: "Skin",
 };
 export const word = name => words[name] ?? name;
 
@@ -46,15 +52,41 @@ export const word = name => words[name] ?? name;
 export function table(caption, head, rows, attributes = {}) {
     const cell = (c, tag) => {
         const { text, value, head: isHead, span, ...rest } = typeof c === "object" && c !== null ? c : { text: c };
-        return make(isHead ? "th" : tag, { ...rest, scope: isHead ? (span ? "rowgroup" : "row") : null, colspan: span,
-                                           "data-value": value }, text);
+        return make(
+            isHead ? "th" : tag,
+            { ...rest, scope: isHead ? (span ? "rowgroup" : "row") : null, colspan: span, "data-value": value },
+            text,
+        );
     };
-    const top = make("tr", {}, head.map(h => make("th", { scope: "col", class: h.class, title: h.title }, h.text ?? h)));
-    const body = rows.map(r => make("tr", { class: r.class }, (r.cells ?? r).map(c => cell(c, "td"))));
-    return make("div", { class: "scroll" },
-                make("table", attributes, caption ? make("caption", {}, caption) : null, make("thead", {}, top), make("tbody", {}, body)));
+    const top = make(
+        "tr",
+        {},
+        head.map(h => make("th", { scope: "col", class: h.class, title: h.title }, h.text ?? h)),
+    );
+    const body = rows.map(r =>
+        make(
+            "tr",
+            { class: r.class },
+            (r.cells ?? r).map(c => cell(c, "td")),
+        ),
+    );
+    return make(
+        "div",
+        { class: "scroll" },
+        make(
+            "table",
+            attributes,
+            caption ? make("caption", {}, caption) : null,
+            make("thead", {}, top),
+            make("tbody", {}, body),
+        ),
+    );
 }
 
 /** A cell that holds a number of the outcome: the text is rounded, data-value has all its digits. */
-export const number = (value, text = fixed(value), more = {}) =>
-    ({ text, value: typeof value === "number" ? value : null, class: "number", ...more });
+export const number = (value, text = fixed(value), more = {}) => ({
+    text,
+    value: typeof value === "number" ? value : null,
+    class: "number",
+    ...more,
+});

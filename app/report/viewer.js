@@ -1,20 +1,37 @@
 // The controls of the stage: every one is a plain form control, so that keyboard and screen reader reach it.
+import { addMarks, addReadout } from "./overlay.js";
 import { Stage } from "./stage.js";
-import { directed, fixed, make, word } from "./text.js";
+import { fixed, make, word } from "./text.js";
 
-const views = [["front", "Front"], ["three_quarter_left", "¾ left"], ["left", "Left"], ["three_quarter_right", "¾ right"],
-               ["right", "Right"], ["below", "Below"]];
+const views = [
+    ["front", "Front"],
+    ["three_quarter_left", "¾ left"],
+    ["left", "Left"],
+    ["three_quarter_right", "¾ right"],
+    ["right", "Right"],
+    ["below", "Below"],
+];
 
 function choice(name, label, options, chosen, onChange) {
-    return make("fieldset", { class: "choice" }, make("legend", {}, label), make("div", {}, options.map(([value, text]) => {
-        const input = make("input", { type: "radio", name, value, checked: value === chosen });
-        input.addEventListener("change", () => onChange(value));
-        return make("label", {}, input, make("span", {}, text));
-    })));
+    return make(
+        "fieldset",
+        { class: "choice" },
+        make("legend", {}, label),
+        make(
+            "div",
+            {},
+            options.map(([value, text]) => {
+                const input = make("input", { type: "radio", name, value, checked: value === chosen });
+                input.addEventListener("change", () => onChange(value));
+                return make("label", {}, input, make("span", {}, text));
+            }),
+        ),
+    );
 }
 
 function tick(label, colour, checked, onChange) {
-    const input = make("input", { type: "checkbox", checked }), swatch = make("i", { class: "swatch" });
+    const input = make("input", { type: "checkbox", checked }),
+        swatch = make("i", { class: "swatch" });
     if (colour) swatch.style.background = `rgb(${colour.map(c => Math.round(255 * c)).join(" ")})`;
     input.addEventListener("change", () => onChange(input.checked));
     return make("label", { class: "tick" }, input, colour ? swatch : null, label);
@@ -23,51 +40,48 @@ function tick(label, colour, checked, onChange) {
 /** Bar of a colour map with its ticks, drawn as a small picture. */
 function legend(map, low, high, caption, fadeTo) {
     const bar = make("canvas", { width: 256, height: 1, class: "bar", "aria-hidden": "true" });
-    const context = bar.getContext("2d"), image = context.createImageData(256, 1);
+    const context = bar.getContext("2d"),
+        image = context.createImageData(256, 1);
     for (let i = 0; i < 256; i++) {
         const share = fadeTo ? Math.min(1, i / 255 / fadeTo) : 1;
         for (let c = 0; c < 3; c++) image.data[4 * i + c] = share * map[3 * i + c] + (1 - share) * [217, 173, 150][c];
         image.data[4 * i + 3] = 255;
     }
     context.putImageData(image, 0, 0);
-    const ticks = [0, 0.25, 0.5, 0.75, 1].map(s => make("span", {}, fixed(low + s * (high - low), (high - low) % 4 ? 1 : 0)));
-    return make("figure", { class: "legend" }, bar, make("div", { class: "ticks" }, ticks), make("figcaption", {}, caption));
-}
-
-/** What is under the cursor, in words. */
-function describe(found, stage) {
-    if (!found) return "";
-    const axes = u => {
-        const along = k => u.reduce((s, x, i) => s + x * stage.frame[k][i], 0);
-        return [directed(-along("posterior"), ["forward", "back"]), directed(along("up"), ["up", "down"]),
-                directed(along("left"), ["left", "right"])].join(" · ");
-    };
-    if (found.mark) {
-        const u = found.mark.after_lps_mm.map((x, i) => x - found.mark.before_lps_mm[i]);
-        return `${found.mark.label}: ${fixed(Math.hypot(...u))} mm (${axes(u)})`;
-    }
-    const { mesh, vertex } = found;
-    if (mesh.shape.moves) {
-        const u = stage.displacement(vertex);
-        return `Skin: ${fixed(stage.moved(vertex))} mm (${axes(u)}); ${directed(stage.outward(vertex), ["outward", "inward"])}`;
-    }
-    const x = [...mesh.shape.xyz.subarray(3 * vertex, 3 * vertex + 3)], m = mesh.shape.matrix;
-    const u = x.map((_, i) => m[4 * i] * x[0] + m[4 * i + 1] * x[1] + m[4 * i + 2] * x[2] + m[4 * i + 3] - x[i]);
-    return `${word(mesh.name)}: ${fixed(Math.hypot(...u))} mm (${axes(u)})`;
+    const ticks = [0, 0.25, 0.5, 0.75, 1].map(s =>
+        make("span", {}, fixed(low + s * (high - low), (high - low) % 4 ? 1 : 0)),
+    );
+    return make(
+        "figure",
+        { class: "legend" },
+        bar,
+        make("div", { class: "ticks" }, ticks),
+        make("figcaption", {}, caption),
+    );
 }
 
 function addSlider(stage, box) {
     const slider = make("input", { type: "range", min: 0, max: 100, step: 1, value: 0, id: "morph" });
-    const left = make("span", {}, "Before"), right = make("span", {}, "Planned");
+    const left = make("span", {}, "Before"),
+        right = make("span", {}, "Planned");
     const line = make("div", { class: "divider" }, make("span", {}, "Before"), make("span", {}, "Planned"));
     const apply = () => {
         const share = slider.value / 100;
-        if (stage.mode === "blend") stage.t = share; else stage.wipe = share;
+        if (stage.mode === "blend") stage.t = share;
+        else stage.wipe = share;
         const at = stage.mode === "side" ? 0.5 : stage.wipe;
         line.hidden = stage.mode === "blend";
         line.style.left = `${100 * at}%`;
-        slider.setAttribute("aria-valuetext", stage.mode === "wipe" ? `before on the left ${slider.value} % of the picture`
-            : slider.value === "0" ? "before" : slider.value === "100" ? "planned" : `${slider.value} % of the way, a blend`);
+        slider.setAttribute(
+            "aria-valuetext",
+            stage.mode === "wipe"
+                ? `before on the left ${slider.value} % of the picture`
+                : slider.value === "0"
+                  ? "before"
+                  : slider.value === "100"
+                    ? "planned"
+                    : `${slider.value} % of the way, a blend`,
+        );
         stage.request();
     };
     slider.addEventListener("input", apply);
@@ -79,7 +93,9 @@ function addSlider(stage, box) {
             slider.value = 100 * Math.min(1, Math.max(0, (m.clientX - r.left) / r.width));
             apply();
         };
-        line.onpointerup = () => { line.onpointermove = null; };
+        line.onpointerup = () => {
+            line.onpointermove = null;
+        };
     });
     box.append(line);
     const row = make("label", { class: "morph" }, left, slider, right);
@@ -90,50 +106,33 @@ function addSlider(stage, box) {
         slider.setAttribute("aria-label", mode === "wipe" ? "Place of the dividing line" : "From before to planned");
         apply();
     };
-    return { row, set, to: value => { slider.value = value; apply(); } };
-}
-
-function addReadout(stage, box) {
-    const out = make("output", { class: "readout", "aria-live": "polite" });
-    const hint = matchMedia("(pointer: coarse)").matches ? "Drag to turn · pinch to zoom · two fingers to shift"
-                                                          : "Drag to turn · wheel to zoom · right button to shift";
-    let waiting = 0, place = null;
-    const show = text => { out.textContent = text || hint; };
-    const look = () => { waiting = 0; if (place) show(describe(stage.at(...place), stage)); };
-    stage.canvas.addEventListener("pointermove", e => {
-        const r = stage.canvas.getBoundingClientRect();
-        place = e.buttons ? null : [e.clientX - r.left, e.clientY - r.top];
-        if (!waiting) waiting = requestAnimationFrame(look);
-    });
-    stage.canvas.addEventListener("pointerleave", () => { place = null; show(""); });
-    show("");
-    box.append(out, make("i", { class: "cross", "aria-hidden": "true" }));
-    return () => show(describe(stage.at(box.clientWidth / 2, box.clientHeight / 2), stage) || "Nothing in the middle of the picture");
-}
-
-/** Marks of the patient's sides, and a scale bar. */
-function addMarks(stage, box) {
-    const sides = ["left", "right"].map(at => make("span", { class: `side ${at}`, "aria-hidden": "true" }));
-    const bar = make("span", { class: "scale", "aria-hidden": "true" });
-    box.append(...sides, bar);
-    stage.canvas.addEventListener("drawn", () => {
-        const { scale, left } = stage.look(), seen = Math.abs(left) > 0.5;
-        sides.forEach((mark, i) => { mark.textContent = seen ? ((i === 1) === (left > 0) ? "L" : "R") : ""; });
-        const length = [5, 10, 20, 50].find(mm => mm * scale > 60) ?? 100;
-        bar.textContent = `${length} mm`;
-        bar.style.width = `${length * scale}px`;
-    });
+    return {
+        row,
+        set,
+        to: value => {
+            slider.value = value;
+            apply();
+        },
+    };
 }
 
 function addKeys(stage, slider, readMiddle) {
     const step = 0.08;
     const keys = {
-        ArrowLeft: () => stage.turn(step, 0), ArrowRight: () => stage.turn(-step, 0),
-        ArrowUp: () => stage.turn(0, step), ArrowDown: () => stage.turn(0, -step),
-        "+": () => stage.zoom(1.15), "=": () => stage.zoom(1.15), "-": () => stage.zoom(1 / 1.15),
-        b: () => slider.to(0), p: () => slider.to(100), r: readMiddle,
+        ArrowLeft: () => stage.turn(step, 0),
+        ArrowRight: () => stage.turn(-step, 0),
+        ArrowUp: () => stage.turn(0, step),
+        ArrowDown: () => stage.turn(0, -step),
+        "+": () => stage.zoom(1.15),
+        "=": () => stage.zoom(1.15),
+        "-": () => stage.zoom(1 / 1.15),
+        b: () => slider.to(0),
+        p: () => slider.to(100),
+        r: readMiddle,
     };
-    views.forEach(([name], i) => { keys[i + 1] = () => stage.setView(name); });
+    views.forEach(([name], i) => {
+        keys[i + 1] = () => stage.setView(name);
+    });
     stage.canvas.addEventListener("keydown", e => {
         const act = e.ctrlKey || e.metaKey || e.altKey ? null : keys[e.key];
         if (!act) return;
@@ -144,14 +143,28 @@ function addKeys(stage, slider, readMiddle) {
 
 /** Fills the two boxes of the page; throws where the browser has no WebGL. */
 export function openViewer(box, controls, data) {
-    const canvas = make("canvas", { tabindex: 0, role: "img", "aria-describedby": "keys",
-                                    "aria-label": "The head in 3-D, before and as planned" });
+    const canvas = make("canvas", {
+        tabindex: 0,
+        role: "img",
+        "aria-describedby": "keys",
+        "aria-label": "The head in 3-D, before and as planned",
+    });
     box.append(canvas);
-    const stage = new Stage(canvas, data), slider = addSlider(stage, box);
+    const stage = new Stage(canvas, data),
+        slider = addSlider(stage, box);
     addMarks(stage, box);
     addKeys(stage, slider, addReadout(stage, box));
-    const bones = data.shapes.filter(s => !s.moves), scale = make("div", {}), mode = box.clientWidth > 600 ? "side" : "blend";
-    const opacity = make("input", { type: "range", min: 0.1, max: 0.9, step: 0.05, value: 0.35, "aria-label": "Opacity of the skin over the bones" });
+    const bones = data.shapes.filter(s => !s.moves),
+        scale = make("div", {}),
+        mode = box.clientWidth > 600 ? "side" : "blend";
+    const opacity = make("input", {
+        type: "range",
+        min: 0.1,
+        max: 0.9,
+        step: 0.05,
+        value: 0.35,
+        "aria-label": "Opacity of the skin over the bones",
+    });
     opacity.addEventListener("input", () => stage.setSkin(Number(opacity.value)));
     const skin = value => {
         opacity.hidden = value !== "clear";
@@ -159,11 +172,20 @@ export function openViewer(box, controls, data) {
     };
     const paint = colour => {
         stage.paint(colour);
-        scale.replaceChildren(...{
-            skin: [],
-            moved: [legend(data.maps.viridis, 0, data.movedHigh, "skin moves by, mm", 0.2)],
-            signed: [legend(data.maps.coolwarm, -data.movedHigh, data.movedHigh, "skin moves inward (−) or outward (+), mm")],
-        }[colour]);
+        scale.replaceChildren(
+            ...{
+                skin: [],
+                moved: [legend(data.maps.viridis, 0, data.movedHigh, "skin moves by, mm", 0.2)],
+                signed: [
+                    legend(
+                        data.maps.coolwarm,
+                        -data.movedHigh,
+                        data.movedHigh,
+                        "skin moves inward (−) or outward (+), mm",
+                    ),
+                ],
+            }[colour],
+        );
     };
     const buttons = views.map(([name, text], i) => {
         const b = make("button", { type: "button", title: `key ${i + 1}` }, text);
@@ -172,15 +194,50 @@ export function openViewer(box, controls, data) {
     });
     controls.append(
         slider.row,
-        choice("mode", "Compare", [["blend", "Blend"], ["wipe", "Wipe"], ["side", "Side by side"]], mode, slider.set),
+        choice(
+            "mode",
+            "Compare",
+            [
+                ["blend", "Blend"],
+                ["wipe", "Wipe"],
+                ["side", "Side by side"],
+            ],
+            mode,
+            slider.set,
+        ),
         make("fieldset", { class: "choice views" }, make("legend", {}, "View"), make("div", {}, buttons)),
-        choice("colour", "Colours of the skin", [["skin", "Skin"], ["moved", "Displacement"], ["signed", "In / out"]], "skin", paint),
+        choice(
+            "colour",
+            "Colours of the skin",
+            [
+                ["skin", "Skin"],
+                ["moved", "Displacement"],
+                ["signed", "In / out"],
+            ],
+            "skin",
+            paint,
+        ),
         scale,
-        choice("layers", "Show", [["whole", "Skin"], ["clear", "Skin over bones"], ["none", "Bones"]], "whole", skin),
+        choice(
+            "layers",
+            "Show",
+            [
+                ["whole", "Skin"],
+                ["clear", "Skin over bones"],
+                ["none", "Bones"],
+            ],
+            "whole",
+            skin,
+        ),
         opacity,
-        make("fieldset", { class: "ticks-list" }, make("legend", {}, "Segments"),
-             bones.map(b => tick(word(b.name), b.rgb, true, on => stage.setVisible(b.name, on)))),
-        tick("Landmarks", null, false, on => stage.setVisible("landmarks", on)));
+        make(
+            "fieldset",
+            { class: "ticks-list" },
+            make("legend", {}, "Segments"),
+            bones.map(b => tick(word(b.name), b.rgb, true, on => stage.setVisible(b.name, on))),
+        ),
+        tick("Landmarks", null, false, on => stage.setVisible("landmarks", on)),
+    );
     skin("whole");
     slider.set(mode);
     return stage;
