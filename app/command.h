@@ -69,12 +69,14 @@ int command_ceph(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_compare(int argc, char **argv);
 int command_cut(int argc, char **argv);
+int command_export(int argc, char **argv);
 int command_import(int argc, char **argv);
 int command_new(int argc, char **argv);
 int command_help(int argc, char **argv);
 int command_prepare(int argc, char **argv);
 int command_predict(int argc, char **argv);
 int command_render(int argc, char **argv);
+int command_report(int argc, char **argv);
 int command_stress(int argc, char **argv);
 int command_study(int argc, char **argv);
 

@@ -28,6 +28,16 @@
 #define WITH_RENDER(run) NULL, "cannot run: this build has no renderer (GNATHOS_RENDER=OFF)"
 #endif
 
+#if GNATHOS_WITH_REPORT && GNATHOS_WITH_RENDER && GNATHOS_WITH_CGAL
+#define WITH_REPORT(run) run, NULL
+#elif GNATHOS_WITH_REPORT && GNATHOS_WITH_RENDER
+#define WITH_REPORT(run) WITH_CGAL(run)
+#elif GNATHOS_WITH_REPORT
+#define WITH_REPORT(run) WITH_RENDER(run)
+#else
+#define WITH_REPORT(run) NULL, "cannot run: this build has no report (GNATHOS_REPORT=OFF)"
+#endif
+
 const verb verbs[] = {
     {"help", "what a verb, a case, a plan or the landmarks are made of", command_help, NULL},
     {"new", "make a case of a synthetic head", WITH_CGAL(command_new)},
@@ -37,12 +47,13 @@ const verb verbs[] = {
     {"prepare", "cut the bones and mesh the soft tissue of a case", WITH_CGAL(command_prepare)},
     {"predict", "predict the face after a plan", WITH_SIM(command_predict)},
     {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
+    {"report", "one page about an outcome, to open in a browser", WITH_REPORT(command_report)},
+    {"export", "write the shapes of an outcome for other programs", WITH_CGAL(command_export)},
     {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
     {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
     {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(command_audit)},
     {"study", "error against run time of a case", WITH_SIM(command_study)},
     {"stress", "stiff materials and extreme moves", WITH_SOLVER(command_stress)},
-    {"report", "one page with pictures and tables of an outcome", NOT_BUILT},
     {"serve", "plan in a browser", NOT_BUILT},
     {"cohort", "run many cases", NOT_BUILT},
     {"shape", "statistical shapes of heads", NOT_BUILT},

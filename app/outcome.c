@@ -1,5 +1,6 @@
 #include "app/outcome.h"
 #include "app/ceph_report.h"
+#include "app/movements.h"
 #include "app/outcome_scene.h"
 #include "app/plan_audit.h"
 #include "geometry/mem.h"
@@ -128,6 +129,17 @@ static json_t *ratios_json(const outcome *o)
     return list;
 }
 
+/* How far to trust the result. */
+static const char *trust(const contact_report *c)
+{
+#define TRUST(lips)                                                                                                    \
+    "The equilibrium is solved to the residual given; the mesh error is not estimated yet, and published predictions " \
+    "of this kind are 0.6 to 1.5 mm off on average, most at the lips, which here can " lips                            \
+    ". Not for planning on patients."
+    return c->on ? TRUST("part and meet") : TRUST("slide but neither part nor meet");
+#undef TRUST
+}
+
 json_t *outcome_json(const outcome *o)
 {
     struct rusage use;
@@ -147,6 +159,9 @@ json_t *outcome_json(const outcome *o)
         "discretisation_error_note",
         "not estimated: one mesh was solved; compare runs with other values of tissue.element_mm");
     json_object_set_new(out, "limits", judgement_json(o->limits, o->patient, o->plan->override));
+    json_object_set_new(out, "movements",
+                        movements_json(o->moves->move, &o->prepared->points, &o->prepared->frame));
+    json_object_set_new(out, "trust", json_string(trust(&q->contact)));
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
         json_object_set_new(out, "soft_to_hard", ratios_json(o));
@@ -280,9 +295,5 @@ void outcome_print(const outcome *o)
         else
             printf("-\n");
     }
-    printf("\nAll in mm. Trust: the equilibrium is solved to the residual above; the mesh error is not "
-           "estimated yet, and published predictions of this kind are 0.6 to 1.5 mm off on average, most at the lips, "
-           "which here can %s. "
-           "Not for planning on patients.\n",
-           c->on ? "part and meet" : "slide but neither part nor meet");
+    printf("\nAll in mm. %s\n", trust(c));
 }

@@ -1,6 +1,7 @@
 #include "app/outcome_read.h"
 #include "geometry/mesh_file.h"
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
 enum { PATH_SIZE = 4096 };
@@ -98,4 +99,33 @@ bool outcome_segments_read(const char *folder, const outcome_record *r, segments
     }
     *at_rest = all;
     return true;
+}
+
+void outcome_shapes_free(outcome_shapes *s)
+{
+    outcome_record_free(&s->record);
+    surface_free(&s->skin_before);
+    surface_free(&s->skin_after);
+    segments_free(&s->at_rest);
+}
+
+static bool same_triangles(const surface *a, const surface *b)
+{
+    return a->vertex_count == b->vertex_count && a->triangle_count == b->triangle_count &&
+           !memcmp(a->tri, b->tri, 3 * (size_t)a->triangle_count * sizeof *a->tri);
+}
+
+bool outcome_shapes_read(const char *folder, outcome_shapes *out, err *e)
+{
+    outcome_shapes s = {0};
+    bool ok = outcome_record_read(folder, &s.record, e) && outcome_skin_read(folder, false, &s.skin_before, e) &&
+              outcome_skin_read(folder, true, &s.skin_after, e) &&
+              outcome_segments_read(folder, &s.record, &s.at_rest, s.move, e);
+    if (ok && !same_triangles(&s.skin_before, &s.skin_after))
+        ok = err_at(e, ERR_INPUT, folder, 0, NULL, "skin_before.ply and skin_after.ply must have the same triangles");
+    if (ok)
+        *out = s;
+    else
+        outcome_shapes_free(&s);
+    return ok;
 }

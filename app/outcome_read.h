@@ -20,3 +20,14 @@ bool outcome_skin_read(const char *folder, bool after, surface *out, err *e) MUS
 bool outcome_segments_read(const char *folder, const outcome_record *r, segments *at_rest, rigid move[SEGMENT_COUNT],
                            err *e) MUST_CHECK;
 void outcome_record_free(outcome_record *r); /* idempotent */
+
+typedef struct outcome_shapes { /* all that is drawn of an outcome */
+    outcome_record record;
+    surface skin_before, skin_after; /* of the same triangles */
+    segments at_rest;
+    rigid move[SEGMENT_COUNT];
+} outcome_shapes;
+
+/* Refuses what the readers above refuse and (ERR_INPUT) skins of different triangles. The caller frees *out. */
+bool outcome_shapes_read(const char *folder, outcome_shapes *out, err *e) MUST_CHECK;
+void outcome_shapes_free(outcome_shapes *s); /* idempotent */

@@ -12,11 +12,11 @@ static const char *const reference_labels[SEGMENT_COUNT][3] = {
     [SEGMENT_CHIN] = {"Pog", "Me", "Gn"},
 };
 
-static const double *reference(const landmarks *l, segment_id s)
+const landmark *plan_moves_reference(const landmarks *l, segment_id s)
 {
     for (int i = 0; i < 3 && reference_labels[s][i]; i++) {
         const landmark *p = landmarks_find(l, reference_labels[s][i]);
-        if (p) return p->xyz;
+        if (p) return p;
     }
     return NULL;
 }
@@ -30,7 +30,8 @@ static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segm
     snprintf(where, sizeof where, "segments.%s", segment_name(id));
     *out = (segment_move){.kind = MOVE_NONE};
     if (s->form == FORM_NONE) return true;
-    if (!reference(l, id)) {
+    const landmark *usual = plan_moves_reference(l, id);
+    if (!usual) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, p->path, s->line, where,
                   "moving the %s segment needs the landmark %s", segment_name(id), reference_labels[id][0]);
         return false;
@@ -40,7 +41,7 @@ static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segm
                   "pivot \"%s\" is not a landmark of this case", s->pivot);
         return false;
     }
-    const double *pivot = s->has_pivot_point ? s->pivot_mm : named ? named->xyz : reference(l, id);
+    const double *pivot = s->has_pivot_point ? s->pivot_mm : named ? named->xyz : usual->xyz;
     out->pitch_deg = s->pitch_deg;
     out->yaw_deg = s->yaw_deg;
     out->roll_deg = s->roll_deg;
@@ -74,13 +75,13 @@ static void check_limit(const plan_file *p, const case_file *c, segment_id id, l
 static int measure(const plan_file *p, segment_id id, const landmarks *l, const head_frame *f,
                    const rigid motion[SEGMENT_COUNT], limit_id *first, double out[4])
 {
-    const double *x = reference(l, id);
+    const landmark *at = plan_moves_reference(l, id);
     double d[3];
     rigid own = motion[id], distal_back = rigid_inverse(&motion[SEGMENT_DISTAL]);
-    if (p->segment[id].form == FORM_NONE || !x) return 0;
+    if (p->segment[id].form == FORM_NONE || !at) return 0;
     if (id == SEGMENT_CHIN) own = rigid_compose(&distal_back, &own);
-    rigid_apply(&own, x, d);
-    vec_sub(d, x, d);
+    rigid_apply(&own, at->xyz, d);
+    vec_sub(d, at->xyz, d);
     double turn_deg = rigid_angle(&own) * 180 / M_PI;
     if (id == SEGMENT_PROXIMAL_LEFT || id == SEGMENT_PROXIMAL_RIGHT) {
         *first = LIMIT_CONDYLE_SHIFT;

@@ -18,6 +18,9 @@ bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, 
  * plan has an override. */
 bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
                      issue_list *issues) MUST_CHECK;
+/* Where the move of a segment is measured, and about what it turns where a plan names no pivot: upper incisor, lower
+ * incisor, pogonion, condylion, or a neighbour of theirs; NULL if the case has none. */
+const landmark *plan_moves_reference(const landmarks *l, segment_id s);
 /* Case, landmarks and plan in one call, for verbs that need no more than the first error. */
 bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan,
                      plan_moves *out, err *e) MUST_CHECK;

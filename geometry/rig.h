@@ -58,6 +58,8 @@ bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condy
 
 /* One move of a segment, as above. */
 rigid rig_segment_motion(const segment_move *m, const head_frame *f);
+/* The angles of a motion's rotation in the same order and sense: turning by them gives it back. |roll| <= 90. */
+void rig_angles(const rigid *motion, const head_frame *f, double *pitch_deg, double *yaw_deg, double *roll_deg);
 /* The jaw alone: x -> c + glide + yaw(roll(open(x - c))), c midway between the condyles. */
 rigid rig_jaw_motion(const jaw_motion *j, const head_frame *f, const double condyle[2][3]);
 

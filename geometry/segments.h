@@ -23,6 +23,8 @@ typedef struct segments {
 const char *segment_name(segment_id id); /* "cranium", "maxilla", "distal", "proximal_left", ... */
 /* Segment number for a name, -1 if there is none. */
 int segment_from_name(const char *name);
+/* The fixed colour of each, sRGB 0..1: cranium ivory, the others told apart by hue and lightness. */
+void segment_color(segment_id id, double rgb[3]);
 void segments_free(segments *s);
 
 #ifdef __cplusplus

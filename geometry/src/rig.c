@@ -38,6 +38,21 @@ rigid rig_segment_motion(const segment_move *m, const head_frame *f)
     return turn;
 }
 
+/* In the head's axes (left, posterior, up) the rotation is Z(yaw) Y(roll) X(pitch). */
+void rig_angles(const rigid *motion, const head_frame *f, double *pitch_deg, double *yaw_deg, double *roll_deg)
+{
+    const double *axis[3] = {f->left, f->posterior, f->up}, degrees = 180 / M_PI;
+    double r[3][3];
+    for (int k = 0; k < 3; k++) {
+        double turned[3];
+        rigid_rotate(motion, axis[k], turned);
+        for (int i = 0; i < 3; i++) r[i][k] = vec_dot(axis[i], turned);
+    }
+    *yaw_deg = degrees * atan2(r[1][0], r[0][0]);
+    *roll_deg = degrees * atan2(-r[2][0], hypot(r[0][0], r[1][0]));
+    *pitch_deg = degrees * atan2(r[2][1], r[2][2]);
+}
+
 rigid rig_jaw_motion(const jaw_motion *j, const head_frame *f, const double condyle[2][3])
 {
     double centre[3], hinge[3];

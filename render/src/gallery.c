@@ -22,12 +22,7 @@ gallery_style gallery_style_default(void)
 
 void subject_segment_color(segment_id id, double rgb[3])
 {
-    static const double color[SEGMENT_COUNT][3] = {
-        [SEGMENT_CRANIUM] = {0.905, 0.865, 0.765},     [SEGMENT_MAXILLA] = {0.38, 0.62, 0.82},
-        [SEGMENT_DISTAL] = {0.93, 0.69, 0.36},         [SEGMENT_PROXIMAL_LEFT] = {0.48, 0.74, 0.52},
-        [SEGMENT_PROXIMAL_RIGHT] = {0.24, 0.60, 0.56}, [SEGMENT_CHIN] = {0.72, 0.52, 0.77},
-    };
-    vec_copy(color[id], rgb);
+    segment_color(id, rgb);
 }
 
 const char *subject_segment_title(segment_id id)

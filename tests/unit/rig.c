@@ -200,6 +200,25 @@ static void controls_that_contradict_each_other_are_refused(void **state)
     assert_refused(rig_motion(&c, &straight, swapped, t, &e), ERR_INPUT);
 }
 
+static void the_angles_of_a_motion_are_those_it_was_made_of(void **state)
+{
+    (void)state;
+    head_frame f = tilted();
+    const double angle[][3] = {{0, 0, 0}, {7, 0, 0}, {0, -4, 0}, {0, 0, 3}, {12, -8, 5}, {-75, 160, -80}};
+    for (size_t i = 0; i < sizeof angle / sizeof *angle; i++) {
+        segment_move m = {.kind = MOVE_ANGLES, .translate_mm = {1, 2, 3}, .pivot_mm = {9, -60, 4}};
+        m.pitch_deg = angle[i][0];
+        m.yaw_deg = angle[i][1];
+        m.roll_deg = angle[i][2];
+        rigid t = rig_segment_motion(&m, &f);
+        double pitch, yaw, roll;
+        rig_angles(&t, &f, &pitch, &yaw, &roll);
+        assert_near(pitch, angle[i][0], 1e-10);
+        assert_near(yaw, angle[i][1], 1e-10);
+        assert_near(roll, angle[i][2], 1e-10);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -210,6 +229,7 @@ int main(void)
         cmocka_unit_test(the_chin_makes_its_own_move_and_then_the_distal_one),
         cmocka_unit_test(opening_turns_the_whole_mandible_about_the_condyles),
         cmocka_unit_test(surgery_comes_before_opening),
+        cmocka_unit_test(the_angles_of_a_motion_are_those_it_was_made_of),
         cmocka_unit_test(controls_that_contradict_each_other_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
