@@ -130,6 +130,8 @@ static void legend(const bool used[SERIES], const char *more)
         plmtex("rv", 2.2, y, 0, series[s].text);
         y -= 0.045;
     }
+    plmtex("rv", 1.2, 0.06, 0, "x2: edges twice as long");
+    plmtex("rv", 1.2, 0.02, 0, "/2: every edge halved");
     if (!more) return;
     plcol0(FRONT);
     plmtex("rv", 1.2, y, 0.5, "—");
@@ -146,12 +148,14 @@ static void mark(const study_table *t, const int *which, const double *x, const 
         plschr(0, 1.1);
         plptex(log10(x[i]), log10(y[i]), 1, 0, 0.5, series[s].mark);
         if (s > 1) continue;
+        const study_rung *r = t->run[which[i]].rung;
+        char name[32];
+        snprintf(name, sizeof name, r->refined ? "x%g /%d" : "x%g", r->coarsening, 1 << r->refined);
         bool right = log10(x[i]) < (p->x0 + p->x1) / 2;
         plcol0(INK);
         plschr(0, 0.62);
         plptex(log10(x[i]) + (right ? 0.012 : -0.012) * (p->x1 - p->x0),
-               log10(y[i]) + (i % 2 ? -0.03 : 0.025) * (p->y1 - p->y0), 1, 0, right ? 0 : 1,
-               t->run[which[i]].rung->name);
+               log10(y[i]) + (i % 2 ? -0.03 : 0.025) * (p->y1 - p->y0), 1, 0, right ? 0 : 1, name);
     }
 }
 
@@ -220,8 +224,8 @@ static void describe_orders(const study_table *t, char *out, size_t size)
     char text[3][24];
     for (int k = 0; k < 3; k++)
         snprintf(text[k], sizeof text[k], isnan(value[k]) ? "not known" : "%.2f", value[k]);
-    snprintf(out, size, "slope of plain tets %s, averaged %s; order of one mesh halved twice %s", text[0],
-             text[1], text[2]);
+    snprintf(out, size, "slope of meshes made anew: plain %s, averaged %s; order of one mesh halved twice %s",
+             text[0], text[1], text[2]);
 }
 
 static void draw_reference(const study_table *t, const picture *p)

@@ -44,7 +44,7 @@ static void print_orders(const study_table *t, FILE *out)
             study_rungs[study_family[0]].name, t->order, study_rungs[study_default].name,
             t->reference_error_mm);
     fprintf(out,
-            "Slope of mean error over tet size: plain tets %.2f, averaged volume changes %.2f. Meshing anew "
+            "Slope of mean error over tet size, meshes made anew: plain tets %.2f, averaged volume changes %.2f. Meshing anew "
             "also moves "
             "the surface and the attachments; halved tets show the discretisation alone.\n",
             t->plain_slope, t->average_slope);
