@@ -1,6 +1,7 @@
 #!/bin/sh
 # evidence.sh GNATHOS WORK [CASE...]: runs the stress suite, and study and ratios of each case, and writes tests/EVIDENCE.md
-# with its plots in tests/evidence/. WORK keeps the runs: the same command goes on where it was stopped. Without cases: the
+# with its plots in tests/evidence/. WORK keeps the runs: the same command goes on where it was stopped,
+# and a new WORK starts anew. Without cases: the
 # synthetic class III head, made there, and the phantom head where its data lie beside the project.
 set -eu
 [ $# -ge 2 ] || { echo "usage: evidence.sh GNATHOS WORK [CASE...]" >&2; exit 2; }
@@ -30,8 +31,8 @@ for folder; do
     plan=
     [ -f "$folder/plan.json" ] || plan="--plan $here/cli/plans/mandible_advance.json"
     # shellcheck disable=SC2086
-    "$gnathos" study "$folder" $plan -o "$work/$name.study" --progress=plain >/dev/null
-    "$gnathos" study "$folder" --ratios -o "$work/$name.study" --progress=plain >/dev/null
+    [ -f "$work/$name.study/study.md" ] || "$gnathos" study "$folder" $plan -o "$work/$name.study" --progress=plain >/dev/null
+    [ -f "$work/$name.study/ratios.md" ] || "$gnathos" study "$folder" --ratios -o "$work/$name.study" --progress=plain >/dev/null
 done
 
 mkdir -p "$here/evidence"

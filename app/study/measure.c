@@ -74,7 +74,8 @@ static double slope_of(const study_table *t, bool average)
     double *h = NEW_ARRAY(double, t->count), *d = NEW_ARRAY(double, t->count);
     int n = 0;
     for (int i = 0; i < t->count; i++) {
-        if (!counts(t, i) || study_rungs[i].group > GROUP_ELEMENT || study_rungs[i].average != average)
+        if (!counts(t, i) || study_rungs[i].group > GROUP_ELEMENT || study_rungs[i].average != average ||
+            study_rungs[i].refined)
             continue;
         h[n] = t->run[i].result.size_mm;
         d[n++] = t->error[i].mean_mm;

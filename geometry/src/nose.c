@@ -100,6 +100,7 @@ static void mark(const tissue *t, const place *w, const nose_params *p, nose *n)
         n->septum_tets++;
         for (int k = 0; k < 4; k++) septum[m->tet[4 * (size_t)i + (size_t)k]] = 1;
     }
+    for (int32_t i = 0; i < 2 * t->attach.pair_count; i++) septum[t->attach.pair[i]] = 0; /* lips hang on no bone */
     n->anchor = NEW_ARRAY(int32_t, m->vertex_count);
     for (int32_t v = 0; v < m->vertex_count; v++)
         if (septum[v] && t->side[v] == SIDE_HOLE &&
