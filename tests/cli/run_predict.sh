@@ -19,6 +19,23 @@ fi
 # shellcheck disable=SC2086
 "$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" $pictures >"$work/predict.txt"
 cat "$work/predict.txt"
+"$gnathos" audit "$work/case" --plan "$plan" --json -q >"$work/audit.json" # feasible: status 0
+/usr/bin/python3 - "$work" <<'PY'
+import json, sys
+audit = json.load(open(sys.argv[1] + "/audit.json"))
+outcome = json.load(open(sys.argv[1] + "/out/outcome.json"))["limits"]
+assert audit["feasible"] and audit["worst"] != "stop", audit["worst"]
+n = len(audit["limits"])
+for a, o in zip(audit["limits"], outcome["limits"]):
+    assert (a["limit"], a["where"], a["value"], a["level"]) == (o["limit"], o["where"], o["value"], o["level"]), (a, o)
+    assert a["level"] != "not judged" or a["note"], a
+assert [f["limit"] for f in outcome["limits"][n:n + 3]] == ["solved", "smallest_j", "largest_stretch"]
+PY
+printf '{ "gnathos": 1, "segments": { "distal": { "translate_mm": [0, 0, 8] } } }\n' >"$work/bite.json"
+status=0
+"$gnathos" predict "$work/case" --plan "$work/bite.json" -o "$work/none" -q 2>"$work/refused.txt" || status=$?
+[ $status -eq 6 ] && [ ! -e "$work/none" ] || fail "teeth 8 mm into each other are not refused: status $status"
+grep -q 'override' "$work/refused.txt" || fail "the refusal does not say how to go on: $(cat "$work/refused.txt")"
 /usr/bin/python3 - "$work/out" <<'PY'
 import json, os, sys
 out = sys.argv[1]
