@@ -60,8 +60,8 @@ What is not known:
 
 * How far a prediction is from the face of a patient after surgery: no pair of scans before and after is at hand. The windows of
   ratios are means over patients; one head outside of one may still be right, and one inside may be wrong.
-* Whether the material matters in a face as it does here: bones drive the tissue, so only ratios of stiffness count; skin, fat,
-  muscle and cartilage are one material.
+* Whether the material matters in a face as it does here: bones drive the tissue, so only ratios of stiffness count; skin, fat and
+  muscle are one material.
 * The error of the surface between scan and mesh, of the segmentation and of the landmarks: a study starts from the surfaces.
 * The reference of a study is itself a mesh. Its own error is estimated by Richardson's extrapolation, which holds where the
   observed order is steady; near the edges of attachment and along cuts it need not be.
