@@ -223,7 +223,7 @@ static bool solve_point(const int32_t *at, const double *start_xyz, void *contex
     judgement bones, j = {.reason = -1};
     plan_moves moves;
     plan_tissue t = {0};
-    if (!audit_judge(a, at, &bones, &moves, e) || !plan_tissue_make(a->patient, a->prepared, moves.move, &t, e))
+    if (!audit_judge(a, at, &bones, &moves, e) || !plan_tissue_make(a->patient, a->prepared, moves.move, false, &t, e))
         return false;
     equilibrium_problem problem = {.mesh = &t.mesh, .attach = &t.attach, .materials = t.material,
                                    .material_count = t.material_count, .start_xyz = start_xyz};
