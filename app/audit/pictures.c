@@ -46,7 +46,7 @@ static void make_kinds(const feasible_map *m, struct kinds *out, int32_t *kind)
             const limit *l = &limit_default[seen[i][1]];
             snprintf(out->text[k], TEXT, "%s: %s%s", level == VERDICT_STOP ? "stop" : "caution",
                      seen[i][1] >= LIMIT_SOLVED ? "soft tissue, " : "", l->what);
-            out->item[k] = (chart_kind){.pattern = level == VERDICT_STOP ? CHART_PLAIN : CHART_DOTS,
+            out->item[k] = (chart_kind){.pattern = level == VERDICT_STOP ? CHART_PLAIN : i < COLOURS ? CHART_DOTS : CHART_STRIPES,
                                         .rank = level,
                                         .letter = {(char)((level == VERDICT_STOP ? 'A' : 'a') + i % 26)},
                                         .text = out->text[k]};

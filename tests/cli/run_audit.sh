@@ -7,8 +7,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "FAIL: $*" >&2; exit 1; }
 size() { stat -c %s "$1" 2>/dev/null || echo 0; }
-audit() { out=$1; shift; "$gnathos" audit "$case" -o "$out" "$@" --pair maxilla_advance_mm,mandible_advance_mm --spacing 5 --tolerance 1.3; }
-audit "$work/whole" >"$work/table.txt"
+settings="--pair maxilla_advance_mm,mandible_advance_mm --spacing 5 --tolerance 1.3"
+# shellcheck disable=SC2086
+"$gnathos" audit "$case" -o "$work/whole" $settings >"$work/table.txt"
 cat "$work/table.txt"
 grep -q 'maxilla_advance_mm  *low' "$work/table.txt" || fail "no table of bounds"
 [ ! -e "$work/whole.journal" ] || fail "the journal stays after the end"
@@ -18,7 +19,7 @@ echo "seed $seed"
 # the journal's growth, in bytes, after which each run is killed: among bones, among solves, anywhere
 for grow in $(awk -v s="$seed" 'BEGIN { srand(s); print int(100 + 1500 * rand()), int(4000 + 200000 * rand()), int(1 + 400000 * rand()) }'); do
     before=$(size "$work/parts.journal")
-    audit "$work/parts" >/dev/null 2>"$work/note.txt" &
+    "$gnathos" audit "$case" -o "$work/parts" $settings >/dev/null 2>"$work/note.txt" &
     running=$!
     while kill -0 $running 2>/dev/null && [ "$(size "$work/parts.journal")" -lt $((before + grow)) ]; do sleep 0.02; done
     kill -9 $running 2>/dev/null || true
@@ -27,14 +28,14 @@ for grow in $(awk -v s="$seed" 'BEGIN { srand(s); print int(100 + 1500 * rand())
     if [ "$before" -gt 200 ]; then grep -q 'goes on after' "$work/note.txt" || fail "an earlier run was forgotten"; fi
 done
 if [ ! -e "$work/parts" ]; then
-    audit "$work/parts" >"$work/again.txt" 2>"$work/note.txt"
+    "$gnathos" audit "$case" -o "$work/parts" $settings >"$work/again.txt" 2>"$work/note.txt"
     sed 's/whole$/parts/' "$work/table.txt" | cmp - "$work/again.txt" || fail "another table"
 fi
 [ "$(ls "$work/whole")" = "$(ls "$work/parts")" ] || fail "other files"
 for file in "$work/whole"/*; do cmp "$file" "$work/parts/$(basename "$file")" || fail "killed and resumed, $file differs"; done
 
 # an interruption is polite, and one thread gives the same bytes as all
-audit "$work/one" -j1 >/dev/null 2>"$work/note.txt" &
+"$gnathos" audit "$case" -o "$work/one" -j1 $settings >/dev/null 2>"$work/note.txt" &
 running=$!
 while kill -0 $running 2>/dev/null && [ "$(size "$work/one.journal")" -lt 800 ]; do sleep 0.02; done
 kill -INT $running
