@@ -38,7 +38,8 @@ static void write_deck(const char *folder, const tetmesh *m, const attach_map *a
     }
     fprintf(f,
             "*MATERIAL,NAME=TISSUE\n*HYPERELASTIC,NEO HOOKE\n%.14g,%.14g\n"
-            "*SOLID SECTION,ELSET=EALL,MATERIAL=TISSUE\n*STEP,NLGEOM,INC=2000\n*STATIC\n1,1.\n*BOUNDARY\n",
+            "*SOLID SECTION,ELSET=EALL,MATERIAL=TISSUE\n*STEP,NLGEOM,INC=2000\n*STATIC\n1,1.\n"
+            "*CONTROLS,PARAMETERS=FIELD\n1.e-8,1.e-6\n*BOUNDARY\n",
             law->mu_kpa / 2, 2 / law->lambda_kpa);
     for (int32_t v = 0; v < m->vertex_count; v++)
         for (int c = 0; c < 3 && a->kind[v] == NODE_TIED; c++)
