@@ -38,7 +38,8 @@ static void write_deck(const char *folder, const tetmesh *m, const attach_map *a
     }
     fprintf(f,
             "*MATERIAL,NAME=TISSUE\n*HYPERELASTIC,NEO HOOKE\n%.14g,%.14g\n"
-            "*SOLID SECTION,ELSET=EALL,MATERIAL=TISSUE\n*STEP,NLGEOM,INC=2000\n*STATIC\n1,1.\n*BOUNDARY\n",
+            "*SOLID SECTION,ELSET=EALL,MATERIAL=TISSUE\n*STEP,NLGEOM,INC=2000\n*STATIC\n1,1.\n"
+            "*CONTROLS,PARAMETERS=FIELD\n1.e-8,1.e-6\n*BOUNDARY\n",
             law->mu_kpa / 2, 2 / law->lambda_kpa);
     for (int32_t v = 0; v < m->vertex_count; v++)
         for (int c = 0; c < 3 && a->kind[v] == NODE_TIED; c++)
@@ -118,6 +119,7 @@ int main(int argc, char **argv)
         p.motion[SEGMENT_MAXILLA] = rigid_translation(move);
         solve_params params = solve_params_default();
         params.blas_threads = threads;
+        params.rel_tol = 1e-10; /* so that differences are CalculiX's */
         equilibrium q;
         spent begin = time_now(), ours, theirs = {0};
         if (!equilibrium_solve(&p, &params, &q, &e)) give_up(&e);
