@@ -2,6 +2,7 @@
 #include "sim/linear.h"
 #include "sim/src/clock.h"
 #include <assert.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
@@ -18,6 +19,10 @@ struct linear {
     int blas_threads;
     linear_stats stats;
 };
+
+/* METIS draws from the C library's rand(), seeded at each ordering: two orderings at once would share the draws, and
+ * neither be the same twice. */
+static pthread_mutex_t ordering = PTHREAD_MUTEX_INITIALIZER;
 
 static bool check_status(linear *l, const char *what, err *e)
 {
@@ -57,7 +62,9 @@ bool linear_create(int64_t unknown_count, const int64_t *start, const int64_t *r
                                  .dtype = CHOLMOD_DOUBLE,
                                  .sorted = 1,
                                  .packed = 1};
+    pthread_mutex_lock(&ordering);
     l->factor = cholmod_l_analyze(&l->matrix, c);
+    pthread_mutex_unlock(&ordering);
     if (!check_status(l, "order", e)) {
         linear_destroy(&l);
         return false;
