@@ -101,7 +101,7 @@ static void solve_some(int64_t begin, int64_t end, void *context)
 {
     struct round *r = context;
     tissue_set *t = r->set;
-    for (int64_t i = begin; i < end; i++) {
+    for (int64_t i = begin; i < end && i < r->count; i++) {
         bool ok = solve(r, &r->point[i], &r->e[i]);
         pthread_mutex_lock(&t->lock);
         if (ok && t->keep) ok = t->keep(&r->point[i], t->context, &r->e[i]);
@@ -122,7 +122,7 @@ bool tissue_set_ask(tissue_set *t, const int32_t *at, int count, err *e)
         for (int k = 0; k < r.count && !known; k++) known = !memcmp(r.point[k].at, p, place_size);
         if (!known) memcpy(r.point[r.count++].at, p, place_size);
     }
-    parallel_for(r.count, 1, solve_some, &r);
+    parallel_for(r.count + 1, 1, solve_some, &r); /* one more than there are: a last one alone has one core too */
     bool ok = true;
     for (int i = 0; i < r.count; i++) {
         if (r.done[i]) add(t, &r.point[i]);
