@@ -190,7 +190,7 @@ static bool make(new_input *in, norm_head *h, err *e)
         ok = norm_head_build(&in->p, h, e);
         if (ok && app_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
     }
-    if (ok) ok = norm_case_write(h, &in->p, again ? in->folder : folder.temporary, name, e);
+    if (ok) ok = norm_case_write(h, again ? NULL : &in->p, again ? in->folder : folder.temporary, name, e);
     if (folder.path) {
         if (ok)
             ok = whole_folder_close(&folder, e);

@@ -81,9 +81,10 @@ static json_t *solve_json(const equilibrium *q)
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (vec_norm(q->segment_force_mn[s]) > 0)
             json_object_set_new(force, segment_name((segment_id)s), vector(q->segment_force_mn[s]));
-    return json_pack("{ss sb si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so so}", "outcome",
+    return json_pack("{ss sb si si si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so so}", "outcome",
                      solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations",
-                     q->iterations, "factorisations", q->factorisations, "loads", q->loads, "halvings",
+                     q->iterations, "factorisations", q->factorisations, "cg_iterations", q->cg_iterations,
+                     "preconditioners", q->preconditioners, "loads", q->loads, "halvings",
                      q->halvings, "residual_mN", q->residual_mn, "initial_residual_mN", q->reference_mn,
                      "relative_residual", relative_residual(q),
                      "tolerance_mN", q->tolerance_mn, "energy_uJ", q->energy_uj, "segment_force_mN", force,

@@ -168,5 +168,5 @@ bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *
     bool ok = landmarks_write(&h->points, path, e);
     free(path);
     return ok && write_json(description(name), folder, "case.json", e) && write_measures(h, folder, e) &&
-           write_json(recipe(p), folder, "recipe.json", e);
+           (!p || write_json(recipe(p), folder, "recipe.json", e));
 }

@@ -8,6 +8,6 @@
 bool norm_case_read_recipe(const char *path, norm_head_params *out, err *e) MUST_CHECK;
 
 /* Writes skin.ply, skull.ply, mandible.ply, upper_teeth.ply, lower_teeth.ply, landmarks.mrk.json, case.json,
- * measures.csv and recipe.json into an existing folder; files of these names are replaced, others stay. */
+ * measures.csv and (p not NULL) recipe.json into an existing folder; files of these names are replaced, others stay. */
 bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *folder, const char *name,
                      err *e) MUST_CHECK;

@@ -213,6 +213,30 @@ static void learn(const equilibrium_problem *problem, const part *p, scene_repor
     }
 }
 
+/* What the rounds before cost is part of the last one's record. */
+static void carry_cost(const equilibrium *before, equilibrium *after)
+{
+    int32_t count = before->record_count + after->record_count;
+    newton_record *record = NEW_ARRAY(newton_record, count);
+    for (int32_t i = 0; i < count; i++)
+        record[i] = i < before->record_count ? before->record[i] : after->record[i - before->record_count];
+    free(after->record);
+    after->record = record;
+    after->record_count = count;
+    after->iterations += before->iterations;
+    after->factorisations += before->factorisations;
+    after->cg_iterations += before->cg_iterations;
+    after->preconditioners += before->preconditioners;
+    after->loads += before->loads;
+    after->halvings += before->halvings;
+    after->prepare_s += before->prepare_s;
+    after->assemble_s += before->assemble_s;
+    after->factor_s += before->factor_s;
+    after->solve_s += before->solve_s;
+    after->total_s += before->total_s;
+    after->memory_peak_mb = fmax(after->memory_peak_mb, before->memory_peak_mb);
+}
+
 bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, const solve_params *params,
                  equilibrium *out, scene_report *report, err *e)
 {
@@ -264,6 +288,7 @@ bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, 
                 next.outcome != SOLVED || r.error_mm <= scene->tolerance_mm || r.rounds == scene->max_rounds;
         }
         part_free(&p);
+        if (ok) carry_cost(&q, &next);
         equilibrium_free(&q);
         q = next;
     }
