@@ -65,7 +65,7 @@
       "it opens by the advancement, for which see mandible_advance_mm, and the saw's width")                          \
     X(BSSO_STEP, bsso_step_mm, "mm", 0, 4, 0, 10, "step of the jaw's border at the buccal cut",                        \
       "own limit, no published number; a notch that is felt")                                                         \
-    X(BSSO_CONTACT, bsso_contact_mm2, "mm2", 200, LIMIT_OPEN, 80, LIMIT_OPEN,                                         \
+    X(BSSO_CONTACT, bsso_contact_mm2, "mm2", 200, LIMIT_OPEN, -LIMIT_OPEN, LIMIT_OPEN,                                      \
       "bone with bone within 1.5 mm and the saw in a split", "own limit, no published number; room for three screws")            \
     X(CHIN_GAP, chin_gap_mm, "mm", -LIMIT_OPEN, 3, -LIMIT_OPEN, 5, "opening of the chin cut",                         \
       "a gap above 5 mm needs a graft (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 28)")              \
@@ -113,7 +113,7 @@
       "5 mm (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 30; Peterson's Principles 2022, ch. 62)")    \
     X(NERVE_CLEARANCE, nerve_clearance_mm, "mm", 1, LIMIT_OPEN, 0, LIMIT_OPEN, "cut to the mandibular canal",         \
       "own limit, no published number")                                                                               \
-    X(CHIN_HEIGHT, chin_height_mm, "mm", 10, LIMIT_OPEN, 6, LIMIT_OPEN, "height of the chin piece, for the plate",    \
+    X(CHIN_HEIGHT, chin_height_mm, "mm", 10, LIMIT_OPEN, -LIMIT_OPEN, LIMIT_OPEN, "height of the chin piece, for the plate",\
       "clinical custom")                                                                                              \
     X(CUT_MARGIN, cut_margin_mm, "mm", 0, LIMIT_OPEN, -LIMIT_OPEN, LIMIT_OPEN, "other margins of the cuts",           \
       "the case's \"cuts\"")
