@@ -7,7 +7,7 @@
 static const double limit_mm = 0.1, deep_mm = 1;
 
 typedef struct bones {
-    nearest *part[SEGMENT_COUNT], *skin;
+    nearest *const *part, *skin;
     rigid back[SEGMENT_COUNT];
 } bones;
 
@@ -55,15 +55,12 @@ static void ask_node(const bones *b, const double rest[3], const double x[3], do
     }
 }
 
-bool bone_depth_measure(const prepared *p, const plan_moves *moves, const attach_map *a, const double *xyz,
-                        bone_depth *out, err *e)
+bool bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves, const attach_map *a,
+                        const double *xyz, bone_depth *out, err *e)
 {
-    bones b = {0};
+    bones b = {.part = shapes->tree};
     bool ok = nearest_create(&p->skin, &b.skin, e);
-    for (int s = 0; ok && s < SEGMENT_COUNT; s++) {
-        b.back[s] = rigid_inverse(&moves->move[s]);
-        if (p->segments.part[s].triangle_count) ok = nearest_create(&p->segments.part[s], &b.part[s], e);
-    }
+    for (int s = 0; s < SEGMENT_COUNT; s++) b.back[s] = rigid_inverse(&moves->move[s]);
     if (ok) {
         const tissue *t = &p->tissue;
         double *area = node_areas(&t->mesh);
@@ -76,6 +73,5 @@ bool bone_depth_measure(const prepared *p, const plan_moves *moves, const attach
         free(area);
     }
     nearest_destroy(&b.skin);
-    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&b.part[s]);
     return ok;
 }

@@ -1,6 +1,7 @@
 /* bone_depth: does tissue end up inside bone? Asked of the predicted tissue and the real bones where the plan
  * puts them, whatever the solve took care of. */
 #pragma once
+#include "app/bone_shapes.h"
 #include "app/plan_moves.h"
 #include "app/prepared.h"
 
@@ -16,5 +17,5 @@ typedef struct bone_depth {
 } bone_depth;
 
 /* xyz[3*nodes]: the tissue after the plan. Refuses what nearest_create refuses. */
-bool bone_depth_measure(const prepared *p, const plan_moves *moves, const attach_map *a, const double *xyz,
-                        bone_depth *out, err *e) MUST_CHECK;
+bool bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves, const attach_map *a,
+                        const double *xyz, bone_depth *out, err *e) MUST_CHECK;

@@ -1,9 +1,9 @@
 /* gnathos predict CASE --plan P -o OUT: the face after a plan. */
-#include "app/colliders.h"
 #include "app/command.h"
 #include "app/judge_tissue.h"
 #include "app/outcome.h"
 #include "app/plan_audit.h"
+#include "app/plan_contact.h"
 #include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
@@ -19,7 +19,8 @@
 struct input {
     command_options common;
     const char *case_path[1], *plan, *out, *cache;
-    bool force, no_pictures, contact, full;
+    bool force, no_pictures, full;
+    contact_kind contact;
 };
 
 enum { KEY_CACHE = 300, KEY_NO_PICTURES, KEY_CONTACT, KEY_FULL };
@@ -29,7 +30,8 @@ static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "Folder for the results", 0},
     {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
-    {"contact", KEY_CONTACT, "on|off", 0, "Let lips part and mucosa lift off (default: off, always in touch)", 0},
+    {"contact", KEY_CONTACT, "KIND", 0,
+     "bones (default: tissue enters no bone), lips (and lips may part and mucosa lift off), off", 0},
     {"full", KEY_FULL, NULL, 0, "Solve for all tissue, also where it hardly moves", 0},
     {"cache", KEY_CACHE, "DIR", 0, "Keep what is prepared in DIR instead of CASE/prepared", 0},
     {0}};
@@ -38,14 +40,16 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 {
     struct input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &in->common;
+        in->contact = CONTACT_BONES;
+        return 0;
     case 'p': in->plan = arg; return 0;
     case 'o': in->out = arg; return 0;
     case 'f': in->force = true; return 0;
     case KEY_NO_PICTURES: in->no_pictures = true; return 0;
     case KEY_CONTACT:
-        in->contact = strcmp(arg, "on") == 0;
-        if (!in->contact && strcmp(arg, "off") != 0) argp_error(state, "--contact is on or off, not %s", arg);
+        if (!contact_kind_find(arg, &in->contact)) argp_error(state, "--contact is bones, lips or off, not %s", arg);
         return 0;
     case KEY_FULL: in->full = true; return 0;
     case KEY_CACHE: in->cache = arg; return 0;
@@ -86,8 +90,8 @@ static void show_iteration(const newton_record *r, void *context)
     command_progress_at(context, stage, -1);
 }
 
-static bool solve(const plan_file *plan, const plan_moves *moves, const prepared *p, const plan_tissue *t,
-                  const struct input *in, equilibrium *out, scene_report *scene, err *e)
+static bool solve(const plan_file *plan, const plan_moves *moves, const prepared *p, const bone_shapes *bones,
+                  const plan_tissue *t, const struct input *in, equilibrium *out, scene_report *scene, err *e)
 {
     equilibrium_problem problem = {
         .mesh = &t->mesh, .attach = &t->attach, .materials = t->material, .material_count = t->material_count};
@@ -99,11 +103,14 @@ static bool solve(const plan_file *plan, const plan_moves *moves, const prepared
     params.context = (command_options *)&in->common;
     scene_params needs = scene_params_default();
     needs.full = in->full;
-    colliders touch = {0};
-    if (in->contact && !colliders_make(p, &t->attach, &touch, e)) return false;
-    if (in->contact) problem.contact = &touch.setup;
+    plan_contact touch = {0};
+    if (in->contact != CONTACT_OFF) {
+        plan_contact_make(in->contact, &p->tissue, bones, &t->attach, moves->move, t->material[0].material.young_kpa,
+                          &touch);
+        problem.contact = &touch.setup;
+    }
     bool ok = scene_solve(&problem, &needs, &params, out, scene, e);
-    colliders_free(&touch);
+    plan_contact_free(&touch);
     return ok;
 }
 
@@ -180,14 +187,18 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     equilibrium q = {0};
     scene_report scene = {0};
     plan_tissue flesh = {0};
+    bone_shapes bones;
     double start = seconds();
-    if (!plan_tissue_make(c, p, moves.move, in->contact, &flesh, e)) return false;
-    if (!solve(&plan, &moves, p, &flesh, in, &q, &scene, e)) {
+    if (!bone_shapes_make(p, &bones, e)) return false;
+    if (!plan_tissue_make(c, p, moves.move, in->contact == CONTACT_LIPS, &flesh, e) ||
+        !solve(&plan, &moves, p, &bones, &flesh, in, &q, &scene, e)) {
         plan_tissue_free(&flesh);
+        bone_shapes_free(&bones);
         return false;
     }
     outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .tissue = &flesh, .solve = &q, .scene = &scene,
-                 .prepare_s = prepare_s, .solve_s = seconds() - start, .limits = &limits};
+                 .prepare_s = prepare_s, .solve_s = seconds() - start, .limits = &limits,
+                 .contact = in->contact};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
     bone_depth depth = {0};
@@ -199,7 +210,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         skin = surface_copy(&p->skin);
         embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, skin.xyz);
         ok = carry_landmarks(p, &moves, u, &points, e) &&
-             bone_depth_measure(p, &moves, &flesh.attach, q.xyz, &depth, e);
+             bone_depth_measure(p, &bones, &moves, &flesh.attach, q.xyz, &depth, e);
         o.depth = &depth;
         o.u = u;
         o.skin = &skin;
@@ -218,6 +229,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     equilibrium_free(&q);
     scene_report_free(&scene);
     plan_tissue_free(&flesh);
+    bone_shapes_free(&bones);
     return ok;
 }
 

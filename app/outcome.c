@@ -52,8 +52,8 @@ static json_t *convergence_json(const equilibrium *q)
 static json_t *contact_json(const contact_report *c)
 {
     if (!c->on) return json_pack("{sb}", "on", false);
-    return json_pack("{sb si si si si sf sf sf sf sf si si si sf si si}", "on", true, "nodes", c->nodes, "touching_nodes",
-                     c->active_nodes, "left_out", c->left_out, "lost", c->lost, "depth_mm", c->depth_mm, "bone_area_mm2",
+    return json_pack("{sb sb si si si si si sf sf sf sf sf sf si si si sf si si}", "on", true, "held", c->held, "nodes", c->nodes, "touching_nodes",
+                     c->active_nodes, "left_out", c->left_out, "lost", c->lost, "pinched", c->pinched, "slide_off_mm", c->slide_off_mm, "depth_mm", c->depth_mm, "bone_area_mm2",
                      c->bone_area_mm2, "lip_area_mm2", c->lip_area_mm2, "pressure_kPa", c->pressure_kpa, "energy_uJ",
                      c->energy_uj, "free_iterations", c->free_iterations, "contact_iterations",
                      c->contact_iterations, "refreshes", c->refreshes, "last_refresh_mm", c->refresh_change_mm,
@@ -131,13 +131,13 @@ static json_t *ratios_json(const outcome *o)
 }
 
 /* How far to trust the result. */
-static const char *trust(const contact_report *c)
+static const char *trust(contact_kind contact)
 {
 #define TRUST(lips)                                                                                                    \
     "The equilibrium is solved to the residual given; the mesh error is not estimated yet, and published predictions " \
     "of this kind are 0.6 to 1.5 mm off on average, most at the lips, which here can " lips                            \
     ". Not for planning on patients."
-    return c->on ? TRUST("part and meet") : TRUST("slide but neither part nor meet");
+    return contact == CONTACT_LIPS ? TRUST("part and meet") : TRUST("slide but neither part nor meet");
 #undef TRUST
 }
 
@@ -162,7 +162,7 @@ json_t *outcome_json(const outcome *o)
     json_object_set_new(out, "limits", judgement_json(o->limits, o->patient, o->plan->override));
     json_object_set_new(out, "movements",
                         movements_json(o->moves->move, &o->prepared->points, &o->prepared->frame));
-    json_object_set_new(out, "trust", json_string(trust(&q->contact)));
+    json_object_set_new(out, "trust", json_string(trust(o->contact)));
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
         json_object_set_new(out, "soft_to_hard", ratios_json(o));
@@ -273,14 +273,16 @@ void outcome_print(const outcome *o)
     judgement_print_brief(o->limits, o->patient);
     const contact_report *c = &q->contact;
     if (c->on)
-        printf("contact: %d of %d nodes touch, %.0f mm2 on bone and %.0f mm2 between the lips, deepest %.3f mm, up to "
-               "%.1f kPa; %d iterations without, %d with contact\n",
-               c->active_nodes, c->nodes, c->bone_area_mm2, c->lip_area_mm2, c->depth_mm, c->pressure_kpa,
-               c->free_iterations, c->contact_iterations);
+        printf("contact%s: %d of %d nodes press on something, %.0f mm2 on bone and %.0f mm2 between the lips, deepest "
+               "%.3f mm, up to %.1f kPa; %d iterations without, %d with contact\n",
+               c->held ? " (lips and mucosa keep in touch)" : "", c->active_nodes, c->nodes, c->bone_area_mm2, c->lip_area_mm2,
+               c->depth_mm, c->pressure_kpa, c->free_iterations, c->contact_iterations);
+    if (c->on && c->pinched)
+        printf("%d nodes lie where two bones overlap and cannot be out of both\n", c->pinched);
     if (!o->points) return;
     const bone_depth *d = o->depth;
     if (d->nodes)
-        printf("tissue is up to %.1f mm deeper in bone than at rest, over %.0f mm2 (more than 1 mm over %.0f mm2); "
+        printf("tissue is up to %.2f mm deeper in bone than at rest, over %.0f mm2 (more than 1 mm over %.0f mm2); "
                "deepest in the %s at (%.1f, %.1f, %.1f) mm, %.1f mm below the skin\n",
                d->depth_mm, d->area_mm2, d->area_deep_mm2, segment_name((segment_id)d->segment), d->at[0], d->at[1],
                d->at[2], d->from_skin_mm);
@@ -296,5 +298,5 @@ void outcome_print(const outcome *o)
         else
             printf("-\n");
     }
-    printf("\nAll in mm. %s\n", trust(c));
+    printf("\nAll in mm. %s\n", trust(o->contact));
 }

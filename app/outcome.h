@@ -4,6 +4,7 @@
 #include "app/carried.h"
 #include "app/judge.h"
 #include "app/output_dir.h"
+#include "app/plan_contact.h"
 #include "app/plan_tissue.h"
 #include "sim/scene.h"
 
@@ -19,6 +20,7 @@ typedef struct outcome {
     const surface *skin; /* predicted */
     const carried_landmarks *points;
     const bone_depth *depth;
+    contact_kind contact; /* asked for */
     const judgement *limits; /* of bones and tissue */
     double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
 } outcome;

@@ -26,27 +26,23 @@ static void list_contact(const outcome *o, json_t *on, json_t *left_out)
     const attach_map *a = &o->tissue->attach;
     bool sliding = false;
     for (int32_t v = 0; v < a->node_count; v++) sliding |= a->kind[v] == NODE_SLIDING;
-    if (o->solve->contact.on) {
-        json_array_append_new(
-            on,
-            json_string("mucosa over crowns and alveolar bone touches without friction and may lift off"));
-        if (a->pair_count)
-            json_array_append_new(on, json_string("the lips touch without friction and may part"));
-        json_array_append_new(left_out, entry("edges, hidden faces and relief of single teeth",
-                                              "bone is felt through the tissue's own bone side at rest, as "
-                                              "coarse as its elements, which ends at "
-                                              "the bite",
-                                              json_null()));
-        return;
-    }
+    bool bones = o->contact != CONTACT_OFF, lips = o->contact == CONTACT_LIPS;
+    if (bones)
+        json_array_append_new(on, json_string("no tissue that can move enters a segment, as scanned and cut"));
     if (sliding)
-        json_array_append_new(on,
-                              json_string("mucosa slides over crowns and alveolar bone, always in touch"));
+        json_array_append_new(on, json_string(lips    ? "mucosa touches crowns and alveolar bone without friction and may lift off"
+                                              : bones ? "mucosa slides along the surface of crowns and alveolar bone, always in touch"
+                                                      : "mucosa slides along tangent planes of crowns and alveolar bone"));
     if (a->pair_count)
-        json_array_append_new(on, json_string("the lips slide along each other, always in touch"));
-    json_array_append_new(left_out,
-                          entry("contact that opens or closes: lips and mucosa can neither part nor meet",
-                                "--contact is off", json_null()));
+        json_array_append_new(on, json_string(lips ? "the lips touch without friction and may part"
+                                                   : "the lips slide along each other, always in touch"));
+    if (!bones)
+        json_array_append_new(left_out, entry("contact of tissue with bone", "--contact is off; tissue_in_bone says how deep it is",
+                                              json_null()));
+    if (!lips)
+        json_array_append_new(left_out, entry("lips that part and meet, mucosa that lifts off",
+                                              "needs --contact lips, and the tone of the lips, which is not modelled",
+                                              json_null()));
 }
 
 static void list_plan_tissue(const outcome *o, json_t *on, json_t *left_out)

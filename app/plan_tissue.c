@@ -39,13 +39,13 @@ static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_
     return true;
 }
 
-bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool contact,
+bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool free_lips,
                       plan_tissue *out, err *e)
 {
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
     bool ok = plan_attach(&p->tissue, &p->segments, motion, &along_cuts, &t.attach, &t.cuts, e) &&
-              add_nose(p, motion, &t, e) && (contact || add_lip(c, p, motion, &t, e)) &&
+              add_nose(p, motion, &t, e) && (free_lips || add_lip(c, p, motion, &t, e)) &&
               make_materials(c, &t, e);
     if (ok)
         *out = t;

@@ -18,8 +18,8 @@ typedef struct plan_tissue {
     int32_t material_count;
 } plan_tissue;
 
-/* contact: lips and mucosa will be left to touch by themselves, so that the lower lip is not laid onto the
+/* free_lips: lips and mucosa will be left to touch by themselves, so that the lower lip is not laid onto the
  * teeth. The caller frees *out before p. Refuses what nearest_create and material_make refuse. */
-bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool contact,
+bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool free_lips,
                       plan_tissue *out, err *e) MUST_CHECK;
 void plan_tissue_free(plan_tissue *t);

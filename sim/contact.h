@@ -39,9 +39,23 @@ typedef struct contact_params {
 
 contact_params contact_params_default(void);
 
+/* A bone at rest as a smooth signed distance, positive outside; queries come from several threads at once. */
+typedef struct bone_shape {
+    const void *context;
+    /* Distance in mm with its derivatives (hess[9] may be NULL); HUGE_VAL: farther than it needs to know. */
+    double (*distance)(const void *context, const double x[3], double grad[3], double *hess);
+    /* Where the ray from x first leaves the bone, and the unit normal there; false: nowhere. */
+    bool (*leave)(const void *context, const double x[3], const double direction[3], double hit[3],
+                  double normal[3]);
+} bone_shape;
+
 /* Borrowed until solver_destroy. */
 typedef struct contact_setup {
     contact_params params;
+    bool held; /* sliding and paired nodes keep in touch as without contact, and only bones are met; sliding nodes
+                  stay on the level of their own bone's distance that they lay on at rest, not on its tangent
+                  plane, where that bone has a shape */
+    const bone_shape *shape[SEGMENT_COUNT]; /* takes the place of bone[]; or NULL */
     const surface *bone[SEGMENT_COUNT]; /* at rest, outward, moves with its segment; open patches allowed; or
                                            NULL */
     int32_t upper_count, lower_count;
@@ -52,9 +66,10 @@ typedef struct contact_setup {
 } contact_setup;
 
 typedef struct contact_report {
-    bool on;
+    bool on, held;
     int32_t nodes, links; /* that could touch; node-collider combinations */
     int32_t left_out;     /* combinations that lie inside each other at rest */
+    int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
     int32_t lost;         /* combinations deeper than the bones have moved: taken for behind, not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
@@ -64,6 +79,7 @@ typedef struct contact_report {
     int free_iterations, contact_iterations; /* phases A and B, all loads */
     int refreshes, stiffenings;
     double refresh_change_mm; /* of the active gaps in the last refresh */
+    double slide_off_mm;      /* farthest that the last refresh moved a sliding node back to its level */
     int32_t uncoupled;        /* lip contacts whose coupling was not in the matrix at its last filling */
     double bone_force_mn[SEGMENT_COUNT][3]; /* on the tissue */
 } contact_report;

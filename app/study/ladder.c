@@ -43,7 +43,8 @@ const study_rung study_rungs[] = {
     {.name = "eight loads", .group = GROUP_SCENE, .coarsening = 1, .load_steps = 8},
     {.name = "left out to 0.05 mm", .group = GROUP_SCENE, .coarsening = 1, .scene_mm = 0.05},
     {.name = "left out to 0.2 mm", .group = GROUP_SCENE, .coarsening = 1, .scene_mm = 0.2},
-    {.name = "contact on", .group = GROUP_SCENE, .coarsening = 1, .contact = true},
+    {.name = "contact with bones", .group = GROUP_SCENE, .coarsening = 1, .contact = CONTACT_BONES},
+    {.name = "contact of lips too", .group = GROUP_SCENE, .coarsening = 1, .contact = CONTACT_LIPS},
 };
 const int study_rung_count = sizeof study_rungs / sizeof *study_rungs;
 const int study_default = 3, study_reference = 7, study_family[3] = {0, 5, 8};

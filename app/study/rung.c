@@ -1,7 +1,6 @@
 /* One rung, solved in a child and kept. */
 #include "app/study/study.h"
 #include "app/child.h"
-#include "app/colliders.h"
 #include "app/pack_file.h"
 #include "app/plan_tissue.h"
 #include "geometry/mem.h"
@@ -51,7 +50,7 @@ static void rung_path(const study_task *t, const study_rung *r, char *out, size_
 {
     snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d_s%g.pack", t->folder, t->name, r->coarsening,
              r->refined, r->average ? "_avg" : "", r->rel_tol, r->model, r->poisson, r->threads,
-             r->contact ? "_contact" : "", r->load_steps, r->scene_mm);
+             r->contact == CONTACT_BONES ? "_bones" : r->contact == CONTACT_LIPS ? "_lips" : "", r->load_steps, r->scene_mm);
 }
 
 static bool take_prepared(const study_task *t, const study_rung *r, prepared *p, double *meshing_s, err *e)
@@ -81,7 +80,7 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
                   study_result *out, err *e)
 {
     plan_tissue flesh;
-    if (!plan_tissue_make(t->patient, p, t->motion, r->contact, &flesh, e)) return false;
+    if (!plan_tissue_make(t->patient, p, t->motion, r->contact == CONTACT_LIPS, &flesh, e)) return false;
     if (r->average) { /* one material only */
         flesh.mesh.region = p->tissue.mesh.region;
         flesh.material_count = 1;
@@ -99,19 +98,25 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
     needs.full = r->scene_mm <= 0;
     if (r->scene_mm > 0) needs.tolerance_mm = r->scene_mm;
     if (r->threads > 0) parallel_set_threads(r->threads);
-    colliders touch = {0};
+    bone_shapes bones = {0};
+    plan_contact touch = {0};
     bool ok = material_make((material_model)r->model, t->patient->material.young_kpa,
                             r->poisson > 0 ? r->poisson : t->patient->material.poisson,
                             &flesh.material[0].material, e) &&
-              (!r->contact || colliders_make(p, &flesh.attach, &touch, e));
-    if (r->contact) problem.contact = &touch.setup;
+              (!r->contact || bone_shapes_make(p, &bones, e));
+    if (ok && r->contact) {
+        plan_contact_make(r->contact, &p->tissue, &bones, &flesh.attach, t->motion, flesh.material[0].material.young_kpa,
+                          &touch);
+        problem.contact = &touch.setup;
+    }
     double wall = now_s(CLOCK_MONOTONIC), cpu = now_s(CLOCK_PROCESS_CPUTIME_ID);
     scene_report left_out = {0};
     ok = ok && scene_solve(&problem, &needs, &params, q, &left_out, e);
     out->wall_s = now_s(CLOCK_MONOTONIC) - wall;
     out->cpu_s = now_s(CLOCK_PROCESS_CPUTIME_ID) - cpu;
     scene_report_free(&left_out);
-    colliders_free(&touch);
+    plan_contact_free(&touch);
+    bone_shapes_free(&bones);
     plan_tissue_free(&flesh);
     return ok;
 }

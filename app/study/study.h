@@ -4,6 +4,7 @@
 #pragma once
 #include "app/carried.h"
 #include "app/command.h"
+#include "app/plan_contact.h"
 #include "sim/newton.h"
 
 typedef enum study_group {
@@ -26,7 +27,7 @@ typedef struct study_rung {
     int model;         /* material_model */
     double poisson;    /* 0: the case's */
     int threads;       /* 0: all cores, or -j */
-    bool contact;
+    contact_kind contact;
     int load_steps;  /* 0: the plan's */
     double scene_mm; /* tissue expected to move less is left out, as gnathos predict does; 0: none is */
 } study_rung;

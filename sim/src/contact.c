@@ -10,6 +10,7 @@ enum { NODE_GRAIN = 16 };
 
 static const double covered = 0.5; /* of C: contacts that count for the depth */
 static const double stiffening_step = 4;
+static const double shallow_depths = 6;
 
 void contact_restart(contact *c)
 {
@@ -36,8 +37,8 @@ void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *gu
 
 typedef struct contact_job {
     contact *c;
-    const double *x;
-    bool exact;
+    const double *x, *force;
+    bool exact, shallow;
     double *block; /* [9*node_count] */
 } contact_job;
 
@@ -55,6 +56,22 @@ static double lip_gap(const contact *c, int32_t i, const contact_link *link, con
     return gap;
 }
 
+double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3], double *hess)
+{
+    const bone_shape *shape = c->setup.shape[link->collider];
+    if (link->flat) {
+        vec_copy(link->m, grad);
+        if (hess) memset(hess, 0, 9 * sizeof *hess);
+        return link->base + vec_dot(link->m, at);
+    }
+    if (shape) return shape->distance(shape->context, at, grad, hess);
+    imls_value v = imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at, hess != NULL, NULL);
+    if (!(v.S > 0)) return HUGE_VAL;
+    vec_copy(v.grad, grad);
+    if (hess) memcpy(hess, v.hess, sizeof v.hess);
+    return v.d;
+}
+
 /* Energy of one link; fills what belongs to the last evaluation. */
 static double evaluate_link(const contact *c, int32_t i, contact_link *link, const double *x)
 {
@@ -69,11 +86,7 @@ static double evaluate_link(const contact *c, int32_t i, contact_link *link, con
     } else {
         double at[3];
         rigid_apply(&c->back[link->collider], x + 3 * (size_t)c->node[i], at);
-        imls_value v =
-            imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at, false, NULL);
-        if (!(v.S > 0)) return 0;
-        link->gap = v.d;
-        vec_copy(v.grad, push);
+        link->gap = contact_bone_gap(c, link, at, push, NULL);
     }
     double delta = link->threshold_mm - link->gap, weight = stiffness_of(c, i, link) * link->cover;
     if (!(delta > 0)) return 0;
@@ -122,35 +135,78 @@ static void add_outer(double *block, double w, const double m[3])
         for (int b = 0; b < 3; b++) block[3 * a + b] += w * m[a] * m[b];
 }
 
+static void turn_hessian(const double R[9], const double hess[9], double turned[9])
+{
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            turned[3 * a + b] = 0;
+            for (int p = 0; p < 3; p++)
+                for (int q = 0; q < 3; q++) turned[3 * a + b] += R[3 * a + p] * hess[3 * p + q] * R[3 * b + q];
+        }
+}
+
+/* A node on a curved level feels the curve: minus its reaction times the Hessian of the distance. */
+static void add_level_curvature(const contact *c, int32_t i, const double *x, const double *force, double block[9])
+{
+    const bone_shape *shape = c->setup.shape[c->level_segment[i]];
+    double at[3], m[3], hess[9], turned[9];
+    size_t v = 3 * (size_t)c->node[i];
+    rigid_apply(&c->back[c->level_segment[i]], x + v, at);
+    if (!(shape->distance(shape->context, at, m, hess) < HUGE_VAL)) return;
+    double square = vec_dot(m, m);
+    rigid_rotate(&c->motion[c->level_segment[i]], m, m);
+    if (!(square > 0.1)) return;
+    turn_hessian(c->motion[c->level_segment[i]].r, hess, turned);
+    for (int k = 0; k < 9; k++) block[k] -= vec_dot(force + v, m) / square * turned[k];
+}
+
+/* Do two bones press the node against each other? Where bones overlap no force brings it out of both. */
+static bool is_pinched(const contact *c, int32_t i)
+{
+    for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
+        for (int32_t k = c->link_start[i]; k < l; k++)
+            if (c->link[l].delta > 0 && c->link[k].delta > 0 && vec_dot(c->link[l].force, c->link[k].force) < 0) return true;
+    return false;
+}
+
+static bool is_deep(const contact *c, const contact_link *link)
+{
+    return link->delta > shallow_depths * c->setup.params.depth_mm;
+}
+
+/* Deep contacts bend the energy so much that curvature only misleads: it counts once all are shallow. */
+static bool is_shallow(const contact *c)
+{
+    for (int32_t i = 0; i < c->node_count; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
+            if (is_deep(c, &c->link[l]) && !is_pinched(c, i)) return false;
+    return true;
+}
+
 static void stiffness_body(int64_t begin, int64_t end, void *context)
 {
     const contact_job *job = context;
     contact *c = job->c;
-    for (int64_t i = begin; i < end; i++)
+    for (int64_t i = begin; i < end; i++) {
+        if (job->exact && job->shallow && c->level_segment[i] >= 0)
+            add_level_curvature(c, (int32_t)i, job->x, job->force, job->block + 9 * i);
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             contact_link *link = &c->link[l];
             evaluate_link(c, (int32_t)i, link, job->x);
             link->delta_factored = link->delta;
             if (!(link->delta > 0) || is_lip(link)) continue;
-            double at[3], m[3], *block = job->block + 9 * i;
+            double at[3], m[3], hess[9], *block = job->block + 9 * i;
             rigid_apply(&c->back[link->collider], job->x + 3 * (size_t)c->node[i], at);
-            imls_value v = imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at,
-                                   job->exact, NULL);
+            contact_bone_gap(c, link, at, m, job->exact ? hess : NULL);
             double weight = stiffness_of(c, (int32_t)i, link) * link->cover;
-            rigid_rotate(&c->motion[link->collider], v.grad, m);
+            rigid_rotate(&c->motion[link->collider], m, m);
             add_outer(block, 6 * weight * link->delta, m);
-            if (!job->exact) continue;
-            const double *R = c->motion[link->collider].r;
+            if (!job->exact || (c->setup.held && is_deep(c, link))) continue;
             double turned[9];
-            for (int a = 0; a < 3; a++)
-                for (int b = 0; b < 3; b++) {
-                    turned[3 * a + b] = 0;
-                    for (int p = 0; p < 3; p++)
-                        for (int q = 0; q < 3; q++)
-                            turned[3 * a + b] += R[3 * a + p] * v.hess[3 * p + q] * R[3 * b + q];
-                }
+            turn_hessian(c->motion[link->collider].r, hess, turned);
             for (int k = 0; k < 9; k++) block[k] -= 3 * weight * link->delta * link->delta * turned[k];
         }
+    }
 }
 
 /* Block of nodes u <= v, NULL where the pattern has none. */
@@ -202,9 +258,9 @@ static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, in
     }
 }
 
-void contact_stiffness(contact *c, const double *x, bool exact, assembly *a)
+void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a)
 {
-    contact_job job = {.c = c, .x = x, .exact = exact, .block = NEW_ARRAY(double, 9 * (size_t)c->node_count)};
+    contact_job job = {.c = c, .x = x, .force = force, .exact = exact, .shallow = is_shallow(c), .block = NEW_ARRAY(double, 9 * (size_t)c->node_count)};
     int32_t *first_edge = NEW_ARRAY(int32_t, (size_t)a->node_count + 1);
     parallel_for(c->node_count, NODE_GRAIN, stiffness_body, &job);
     for (int32_t k = 0; k < a->edge_count; k++) first_edge[a->edge_node[2 * (size_t)k] + 1] = k + 1;
@@ -237,11 +293,12 @@ static double depth_of(const contact_link *link)
 bool contact_stiffen(contact *c)
 {
     bool any = false;
-    for (int32_t l = 0; l < c->link_count; l++)
-        if (depth_of(&c->link[l]) > c->setup.params.depth_limit_mm) {
-            c->link[l].stiffening *= stiffening_step;
-            any = true;
-        }
+    for (int32_t i = 0; i < c->node_count; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
+            if (depth_of(&c->link[l]) > c->setup.params.depth_limit_mm && !is_pinched(c, i)) {
+                c->link[l].stiffening *= stiffening_step;
+                any = true;
+            }
     c->report.stiffenings += any;
     return any;
 }
@@ -250,17 +307,19 @@ contact_report contact_measure(const contact *c)
 {
     contact_report r = c->report;
     r.on = true;
+    r.held = c->setup.held;
     r.nodes = c->node_count;
     r.links = c->link_count;
-    r.active_nodes = r.lost = 0;
+    r.active_nodes = r.lost = r.pinched = 0;
     r.depth_mm = r.bone_area_mm2 = r.lip_area_mm2 = r.pressure_kpa = r.energy_uj = 0;
     memset(r.bone_force_mn, 0, sizeof r.bone_force_mn);
     for (int32_t i = 0; i < c->node_count; i++) {
-        bool bone = false, lip = false;
+        bool bone = false, lip = false, pinched = is_pinched(c, i);
+        r.pinched += pinched;
         r.energy_uj += c->energy[i];
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             const contact_link *link = &c->link[l];
-            r.depth_mm = fmax(r.depth_mm, depth_of(link));
+            if (!pinched) r.depth_mm = fmax(r.depth_mm, depth_of(link));
             r.lost += link->lost;
             if (!is_lip(link))
                 vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);

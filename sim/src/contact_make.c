@@ -85,8 +85,9 @@ static bool check_lists(const tetmesh *m, const attach_map *a, const contact_set
             ok = err_set(e, ERR_INPUT, "node %d cannot meet bone: it is out of range or tied", v);
     }
     for (int32_t v = 0; ok && v < m->vertex_count; v++) {
-        const surface *bone = a->kind[v] == NODE_SLIDING ? s->bone[a->segment[v]] : NULL;
-        if (a->kind[v] == NODE_SLIDING && !(bone && bone->triangle_count))
+        if (a->kind[v] != NODE_SLIDING || s->held || s->shape[a->segment[v]]) continue;
+        const surface *bone = s->bone[a->segment[v]];
+        if (!(bone && bone->triangle_count))
             ok = err_set(e, ERR_INPUT, "node %d slides on the %s, which has no contact surface", v,
                          segment_name((segment_id)a->segment[v]));
     }
@@ -199,7 +200,7 @@ static void make_couplings(contact *c, const tetmesh *m)
     free(node);
 }
 
-static void make_links(contact *c)
+static void make_links(contact *c, const attach_map *a)
 {
     c->link_start = NEW_ARRAY(int32_t, (size_t)c->node_count + 1);
     c->link = NEW_ARRAY(contact_link, COLLIDER_COUNT * (size_t)c->node_count);
@@ -212,8 +213,10 @@ static void make_links(contact *c)
             lower = !upper;
         }
         for (int k = 0; k < COLLIDER_COUNT; k++) {
-            if (!c->cloud[k].count || (k == COLLIDER_UPPER && !lower) || (k == COLLIDER_LOWER && !upper))
+            bool shape = k < SEGMENT_COUNT && c->setup.shape[k];
+            if ((!shape && !c->cloud[k].count) || (k == COLLIDER_UPPER && !lower) || (k == COLLIDER_LOWER && !upper))
                 continue;
+            if (c->setup.held && a->kind[c->node[i]] == NODE_SLIDING && a->segment[c->node[i]] == k) continue;
             c->link[c->link_count++] = (contact_link){.collider = k, .stiffening = 1, .scale = 1};
         }
     }
@@ -245,6 +248,19 @@ static void measure_rest(contact *c, const tetmesh *m)
     }
 }
 
+/* Levels on which sliding nodes lie at rest, before a shift that the attachment asks for. */
+static void measure_levels(contact *c, const tetmesh *m, const attach_map *a)
+{
+    for (int32_t i = 0; i < c->node_count; i++) {
+        int32_t v = c->node[i];
+        const bone_shape *shape = a->kind[v] == NODE_SLIDING ? c->setup.shape[a->segment[v]] : NULL;
+        double grad[3], level = HUGE_VAL;
+        if (c->setup.held && shape) level = shape->distance(shape->context, m->xyz + 3 * (size_t)v, grad, NULL);
+        c->level_segment[i] = level < HUGE_VAL ? (int8_t)a->segment[v] : -1;
+        c->level_mm[i] = level;
+    }
+}
+
 bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setup *setup, double young_kpa,
                   contact **out, err *e)
 {
@@ -259,9 +275,11 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
     c->k = (p->pressure_kpa > 0 ? p->pressure_kpa : young_kpa) / (3 * p->depth_mm * p->depth_mm);
     bool ok = find_nodes(c, m, attach, e);
     c->own_sample = NEW_ARRAY(int32_t, c->node_count);
+    c->level_mm = NEW_ARRAY(double, c->node_count);
+    c->level_segment = NEW_ARRAY(int8_t, c->node_count);
     for (int32_t i = 0; i < c->node_count; i++) c->own_sample[i] = -1;
     for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (setup->bone[s]) c->cloud[s] = imls_of_surface(setup->bone[s], p->support);
+        if (setup->bone[s] && !setup->shape[s]) c->cloud[s] = imls_of_surface(setup->bone[s], p->support);
     if (ok && (setup->upper_count > 0) != (setup->lower_count > 0))
         ok = err_set(e, ERR_INPUT, "the %s lip has contact faces, the other has none",
                      setup->upper_count ? "upper" : "lower");
@@ -282,8 +300,9 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
     if (ok && c->node_count == 0)
         ok = err_set(e, ERR_INPUT, "contact is on, but no node slides, is paired or is named to touch");
     if (ok) {
-        make_links(c);
+        make_links(c, attach);
         measure_rest(c, m);
+        measure_levels(c, m, attach);
         *out = c;
     } else
         contact_destroy(&c);
@@ -305,6 +324,8 @@ void contact_destroy(contact **c)
     free((*c)->node);
     free((*c)->area);
     free((*c)->outward);
+    free((*c)->level_mm);
+    free((*c)->level_segment);
     free((*c)->own_sample);
     free((*c)->link_start);
     free((*c)->link);

@@ -7,6 +7,7 @@ enum { NODE_GRAIN = 16 };
 
 static const double shallow = 0.4;    /* of h: what the plain support sees well */
 static const double wide = 1 / 0.4;   /* support of a deep node over its distance; meets 1 at shallow */
+static const double deep_mm = 0.3;    /* in a shape, where its nearest surface need not be the right one */
 static const double candidate_mm = 2; /* samples so far beyond the support are kept as candidates */
 
 /* Where the node is seen by the collider, and the direction a sample must face. */
@@ -88,6 +89,25 @@ static void refresh_link(contact *c, int32_t i, contact_link *link, const double
     link->count = kept;
 }
 
+/* A shape knows its inside, but of a thin bone not the side from which the node came: where a deep node would
+ * be pushed the way that it faces, it sees the plane at which the way back leaves the bone. */
+static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const double *x)
+{
+    const bone_shape *shape = c->setup.shape[link->collider];
+    double at[3], facing[3], grad[3], hit[3];
+    look(c, i, link, x, at, facing);
+    link->flat = link->lost = false;
+    link->plane_mm = HUGE_VAL;
+    link->scale = link->cover = 1;
+    double d = shape->distance(shape->context, at, grad, NULL);
+    link->near = d < HUGE_VAL;
+    if (!(d < -deep_mm) || vec_dot(grad, facing) > 0) return;
+    bool back = shape->leave(shape->context, at, facing, hit, link->m);
+    link->lost = !back || vec_distance(hit, at) > c->motion_reach_mm + deep_mm || !(vec_dot(link->m, facing) > 0.2);
+    link->near = link->flat = !link->lost;
+    link->base = -vec_dot(link->m, hit);
+}
+
 typedef struct refresh_job {
     contact *c;
     const double *x;
@@ -100,7 +120,12 @@ static void refresh_body(int64_t begin, int64_t end, void *context)
     for (int64_t i = begin; i < end; i++)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             c->link[l].delta_before = c->link[l].delta;
-            if (!c->link[l].left_out) refresh_link(c, (int32_t)i, &c->link[l], job->x);
+            contact_link *link = &c->link[l];
+            if (link->left_out) continue;
+            if (!is_lip(link) && c->setup.shape[link->collider])
+                refresh_shape_link(c, (int32_t)i, link, job->x);
+            else
+                refresh_link(c, (int32_t)i, link, job->x);
         }
 }
 

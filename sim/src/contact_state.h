@@ -1,6 +1,7 @@
 /* contact_state: what could touch what, and what does. */
 #pragma once
 #include "sim/assemble.h"
+#include "sim/boundary.h"
 #include "sim/contact.h"
 #include "sim/src/contact_imls.h"
 
@@ -10,6 +11,8 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
+    bool flat; /* a bone's shape is seen as the plane base + m.x: the node is deep and its nearest way out leads to
+                  the wrong side */
     bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
                  */
     double threshold_mm;  /* tau */
@@ -39,6 +42,8 @@ typedef struct contact {
     int32_t mesh_node_count, node_count;
     int32_t *node;          /* [node_count] mesh numbers */
     double *area, *outward; /* rest: mm2; unit, out of the tissue */
+    int8_t *level_segment;  /* [node_count] held: the bone that a sliding node follows, else -1 */
+    double *level_mm;       /* its distance from it */
     int32_t *own_sample;    /* [node_count] number in its own lip's cloud, -1: no lip */
     imls_cloud cloud[COLLIDER_COUNT];
     int32_t *lip_node[2], *lip_tri[2], lip_tri_count[2]; /* mesh numbers of samples; triangles of samples */
@@ -65,10 +70,18 @@ void contact_restart(contact *c);
 void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *guide, const double *rest_xyz);
 /* Renews candidates, supports and the frozen lips at x[3*nodes]. */
 void contact_refresh(contact *c, const double *x);
+/* held: puts sliding nodes at x[3*nodes] back on their levels, to first order. */
+void contact_retract(const contact *c, const attach_map *attach, double *x);
+/* held: turns and shifts the planes of sliding nodes so that they touch their levels next to x[3*nodes].
+ * Returns the farthest move of a node, mm. */
+double contact_follow(const contact *c, const attach_map *attach, boundary *b, const double *x);
+/* Signed distance of a bone from a point at[3] in its own place at rest, HUGE_VAL: nothing is near. */
+double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3],
+                        double *hess);
 /* Energy in uJ; adds to force[3*nodes] (may be NULL). */
 double contact_energy(contact *c, const double *x, double *force);
-/* Adds to a->edge_block. exact: with the curvature of the distance (indefinite), else Gauss-Newton. */
-void contact_stiffness(contact *c, const double *x, bool exact, assembly *a);
+/* Adds to a->edge_block; force[3*nodes] of the whole energy at x. exact: with the curvature of the distance (indefinite), else Gauss-Newton. */
+void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
 /* Of active gaps between the energies before and after the last refresh, mm. */

@@ -54,7 +54,19 @@ void descent_free(descent *d)
 
 static void refresh(descent *d)
 {
-    contact_refresh(d->t->touch, d->x);
+    static const double old_mm = 0.01; /* planes that moved farther make a new factor worth while */
+    solver *t = d->t;
+    double moved = contact_follow(t->touch, t->attach, &t->b, d->x);
+    if (moved > 0) {
+        boundary_project(&t->b, d->x, d->z);
+        boundary_place(&t->b, d->z, d->x);
+    }
+    if (moved > old_mm) {
+        d->has_factor = false;
+        d->pair_count = 0;
+    }
+    d->out->contact.slide_off_mm = moved;
+    contact_refresh(t->touch, d->x);
     point_measure(d);
     d->out->contact.refresh_change_mm = contact_refresh_change(d->t->touch);
 }
@@ -92,6 +104,11 @@ static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, dou
     }
 }
 
+static bool renews_each_time(const contact *c, int iteration)
+{
+    return c->setup.held || iteration <= c->setup.params.refresh_iterations;
+}
+
 /* Iterates until the residual is below d->tolerance. */
 static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *outcome, err *e)
 {
@@ -101,7 +118,7 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
     d->residual_at_factor = d->residual;
     for (int iteration = 1;; iteration++) {
         bool low = d->residual <= d->tolerance;
-        if (d->touching && !fresh && (low || iteration <= d->t->touch->setup.params.refresh_iterations)) {
+        if (d->touching && !fresh && (low || renews_each_time(d->t->touch, iteration))) {
             refresh(d);
             fresh = true;
         }
@@ -179,13 +196,14 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     floor = fmax(floor, assembly_force_noise(&t->a, d->x));
     d->tolerance = fmax(rel_tol * reference, floor);
     d->out->reference_mn = reference;
-    if (t->touch) {
+    bool touch = t->touch && !(t->touch->setup.held && load < 1); /* what keeps in touch meets bone at the end */
+    if (touch) {
         d->touching = true;
         contact_refresh(t->touch, d->x);
     }
     point_measure(d);
     bool rest = isfinite(d->energy) && d->residual <= d->tolerance, ok = true, interrupted = false;
-    if (!rest && t->touch) {
+    if (!rest && touch) {
         d->touching = false;
         point_measure(d);
     }
@@ -197,7 +215,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
         *outcome = STOPPED_NOT_FINITE;
         return true;
     }
-    if (!rest && t->touch) {
+    if (!rest && touch) {
         if (free_first && !run_free(d, reference, &interrupted, e)) return false;
         if (interrupted) {
             *outcome = STOPPED_INTERRUPTED;

@@ -20,7 +20,7 @@ void direct_fill(descent *d, const double *x, projection how)
     if (d->inexact && !d->touching && how == PROJECTION_NONE)
         d->t->matrix_x = COPY_ARRAY(double, x, 3 * (size_t)a->node_count);
     assembly_stiffness(a, x, how);
-    if (d->touching) contact_stiffness(d->t->touch, x, how == PROJECTION_NONE, a);
+    if (d->touching) contact_stiffness(d->t->touch, x, d->force, how == PROJECTION_NONE, a);
     assembly_matrix(a, &d->t->b);
     d->out->assemble_s += clock_s() - begin;
 }

@@ -82,6 +82,7 @@ static bool make_contact(solver *t, const equilibrium_problem *problem, err *e)
     for (int32_t i = 0; i < problem->material_count; i++)
         young = fmax(young, problem->materials[i].material.young_kpa);
     if (!contact_make(problem->mesh, problem->attach, problem->contact, young, &t->touch, e)) return false;
+    if (problem->contact->held) return true;
     t->loosened = contact_loosened(problem->attach, problem->contact);
     t->attach = &t->loosened;
     return true;
@@ -218,7 +219,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         }
         q.loads++;
         double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
-        bool loose = t->touch && q.load_reached == 0 && !from_guess;
+        bool loose = t->touch && (t->touch->setup.held ? target >= 1 : q.load_reached == 0) && !from_guess;
         ok = descent_run(&d, target, rel_tol, loose, start, &outcome, e);
         if (!ok || outcome == STOPPED_INTERRUPTED) break;
         if (outcome == SOLVED) {

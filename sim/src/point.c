@@ -79,6 +79,7 @@ double point_line_search(descent *d)
     for (int cut = 0; cut <= d->params->max_step_cuts; cut++, step /= 2) {
         for (int64_t i = 0; i < n; i++) d->z_new[i] = d->z[i] + step * d->direction[i];
         boundary_place(&d->t->b, d->z_new, d->x_new);
+        if (d->touching) contact_retract(d->t->touch, d->t->attach, d->x_new);
         double energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
         if (!isfinite(energy)) continue;
         bool falls = energy <= d->energy + armijo * step * slope;

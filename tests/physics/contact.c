@@ -310,7 +310,7 @@ static void check_derivatives(scene *s, double lift_mm)
     assert_ok(elements_make(&s->mesh, &s->table, 1, &el, &e));
     assert_ok(boundary_make(&s->mesh, &loose, &b, &e));
     assert_ok(assembly_make(&s->mesh, &el, &b, c->coupling, c->coupling_count, &a, &e));
-    contact_stiffness(c, x, true, &a);
+    contact_stiffness(c, x, NULL, true, &a);
     assembly_multiply(&a, w, at);
     for (size_t i = 0; i < n; i++) scale = fmax(scale, fabs(at[i]));
     for (size_t i = 0; i < n; i++) worst = fmax(worst, fabs((up[i] - down[i]) / (2 * h) - at[i]));
@@ -319,7 +319,7 @@ static void check_derivatives(scene *s, double lift_mm)
     if (s->setup.upper_count) /* lip on lip: equal and opposite */
         for (int k = 0; k < 3; k++) assert_near(sum[k], 0, 1e-9 * scale);
     memset(a.edge_block, 0, 9 * (size_t)a.edge_count * sizeof *a.edge_block);
-    contact_stiffness(c, x, false, &a);
+    contact_stiffness(c, x, NULL, false, &a);
     double quadratic = 0;
     assembly_multiply(&a, w, at);
     for (size_t i = 0; i < n; i++) quadratic += w[i] * at[i];
