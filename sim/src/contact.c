@@ -303,6 +303,13 @@ bool contact_stiffen(contact *c)
     return any;
 }
 
+double contact_force(const contact *c)
+{
+    double square = 0;
+    for (int32_t l = 0; l < c->link_count; l++) square += vec_dot(c->link[l].force, c->link[l].force);
+    return sqrt(square);
+}
+
 contact_report contact_measure(const contact *c)
 {
     contact_report r = c->report;

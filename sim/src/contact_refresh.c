@@ -7,7 +7,8 @@ enum { NODE_GRAIN = 16 };
 
 static const double shallow = 0.4;    /* of h: what the plain support sees well */
 static const double wide = 1 / 0.4;   /* support of a deep node over its distance; meets 1 at shallow */
-static const double deep_mm = 0.3;    /* in a shape, where its nearest surface need not be the right one */
+static const double deep_mm = 0.3;    /* in a shape: a node whose way back is not found is given up from here on */
+static const double backwards = -0.2; /* cosine to the way that a node came from, of a nearest surface that is the wrong one */
 static const double candidate_mm = 2; /* samples so far beyond the support are kept as candidates */
 
 /* Where the node is seen by the collider, and the direction a sample must face. */
@@ -89,8 +90,8 @@ static void refresh_link(contact *c, int32_t i, contact_link *link, const double
     link->count = kept;
 }
 
-/* A shape knows its inside, but of a thin bone not the side from which the node came: where a deep node would
- * be pushed the way that it faces, it sees the plane at which the way back leaves the bone. */
+/* A shape knows its inside, but of a thin bone not the side from which the node came: where a node would be
+ * pushed on the way that it went, it sees the plane at which the way back leaves the bone. */
 static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const double *x)
 {
     const bone_shape *shape = c->setup.shape[link->collider];
@@ -101,10 +102,11 @@ static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const 
     link->scale = link->cover = 1;
     double d = shape->distance(shape->context, at, grad, NULL);
     link->near = d < HUGE_VAL;
-    if (!(d < -deep_mm) || vec_dot(grad, facing) > 0) return;
-    bool back = shape->leave(shape->context, at, facing, hit, link->m);
-    link->lost = !back || vec_distance(hit, at) > c->motion_reach_mm + deep_mm || !(vec_dot(link->m, facing) > 0.2);
-    link->near = link->flat = !link->lost;
+    if (!(d < 0) || vec_dot(grad, facing) > backwards * vec_norm(grad)) return;
+    link->flat = shape->leave(shape->context, at, facing, hit, link->m) && vec_dot(link->m, facing) > -backwards &&
+                 vec_distance(hit, at) < c->motion_reach_mm + deep_mm;
+    link->lost = !link->flat && d < -deep_mm;
+    link->near = !link->lost;
     link->base = -vec_dot(link->m, hit);
 }
 

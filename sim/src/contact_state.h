@@ -11,8 +11,7 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool flat; /* a bone's shape is seen as the plane base + m.x: the node is deep and its nearest way out leads to
-                  the wrong side */
+    bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
     bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
                  */
     double threshold_mm;  /* tau */
@@ -88,5 +87,7 @@ bool contact_stiffness_is_old(const contact *c);
 double contact_refresh_change(const contact *c);
 /* Stiffens what is deeper than the limit; false: nothing is. */
 bool contact_stiffen(contact *c);
+/* Norm of all contact forces of the last contact_energy, mN. */
+double contact_force(const contact *c);
 /* Of the last contact_energy. */
 contact_report contact_measure(const contact *c);

@@ -104,6 +104,16 @@ static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, dou
     }
 }
 
+double descent_tolerance(const descent *d)
+{
+    return d->touching ? fmax(d->tolerance, d->rel_tol * contact_force(d->t->touch)) : d->tolerance;
+}
+
+static bool is_low(const descent *d)
+{
+    return d->residual <= descent_tolerance(d);
+}
+
 static bool renews_each_time(const contact *c, int iteration)
 {
     return c->setup.held || iteration <= c->setup.params.refresh_iterations;
@@ -117,12 +127,12 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
     d->energy_noise = assembly_energy_noise(&d->t->a, d->x);
     d->residual_at_factor = d->residual;
     for (int iteration = 1;; iteration++) {
-        bool low = d->residual <= d->tolerance;
+        bool low = is_low(d);
         if (d->touching && !fresh && (low || renews_each_time(d->t->touch, iteration))) {
             refresh(d);
             fresh = true;
         }
-        if (d->residual <= d->tolerance && d->touching && contact_stiffen(d->t->touch)) {
+        if (is_low(d) && d->touching && contact_stiffen(d->t->touch)) {
             if (++stiffenings > d->t->touch->setup.params.max_stiffenings) {
                 *outcome = STOPPED_PENETRATION;
                 return true;
@@ -130,7 +140,7 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             point_measure(d);
             d->has_factor = false;
         }
-        if (d->residual <= d->tolerance) {
+        if (is_low(d)) {
             *outcome = SOLVED;
             return true;
         }
@@ -181,6 +191,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
 {
     solver *t = d->t;
     d->load = load;
+    d->rel_tol = rel_tol;
     d->has_factor = false;
     d->pair_count = 0;
     d->touching = false;

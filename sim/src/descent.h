@@ -40,7 +40,7 @@ typedef struct descent {
     double load;
     /* present iterate */
     double *z, *x, *force, *g;
-    double energy, residual, tolerance, energy_noise;
+    double energy, residual, tolerance, rel_tol, energy_noise;
     double residual_before; /* of the last iterate */
     /* trial point, direction, work */
     double *z_new, *x_new, *force_new, *g_new, *direction;
@@ -63,6 +63,10 @@ void descent_free(descent *d);
  * residual is below the tolerance; d->x is the last iterate. */
 bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
                  solve_outcome *outcome, err *e) MUST_CHECK;
+
+/* What the residual must fall to, mN: where bones press on tissue that hangs on none of them, the contact forces are
+ * the measure. */
+double descent_tolerance(const descent *d);
 
 /* point.c */
 double point_dot(const double *a, const double *b, int64_t n);
