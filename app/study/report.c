@@ -1,5 +1,6 @@
 /* The study as a table: Markdown, CSV, JSON. */
 #include "app/study/study.h"
+#include "app/json_table.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -111,20 +112,12 @@ void study_print(const study_table *t, FILE *out)
     print_tubes(t, out);
 }
 
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
 static json_t *row_json(const study_table *t, int i)
 {
     const study_result *r = &t->run[i].result;
     json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting",
                           study_rungs[i].name, "outcome", r->text, "solved", r->solved, "front", t->best[i]);
-    const struct {
-        const char *name;
-        double value;
-    } numbers[] = {{"nodes", r->nodes},
+    const json_column numbers[] = {{"nodes", r->nodes},
                    {"tets", r->tets},
                    {"unknowns", (double)r->unknowns},
                    {"size_mm", r->size_mm},
@@ -148,8 +141,7 @@ static json_t *row_json(const study_table *t, int i)
                    {"mean_error_mm", t->error[i].mean_mm},
                    {"p95_error_mm", t->error[i].p95_mm},
                    {"max_error_mm", t->error[i].max_mm}};
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        json_object_set_new(o, numbers[k].name, number(numbers[k].value));
+    json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     return o;
 }
 
@@ -164,39 +156,16 @@ json_t *study_json(const study_table *t)
         const study_tube *row = &t->tube[i];
         json_array_append_new(tubes,
                               json_pack("{si sb so sI si so so}", "cells", row->cells, "averaged",
-                                        row->average, "poisson", number(row->poisson), "unknowns",
+                                        row->average, "poisson", json_number(row->poisson), "unknowns",
                                         (json_int_t)row->unknowns, "iterations", row->iterations, "wall_s",
-                                        number(row->wall_s), "error_mm", number(row->error_mm)));
+                                        json_number(row->wall_s), "error_mm", json_number(row->error_mm)));
     }
     json_object_set_new(o, "tubes", tubes);
-    json_object_set_new(o, "reference_error_mm", number(t->reference_error_mm));
-    json_object_set_new(o, "order", number(t->order));
-    json_object_set_new(o, "plain_slope", number(t->plain_slope));
-    json_object_set_new(o, "average_slope", number(t->average_slope));
+    json_object_set_new(o, "reference_error_mm", json_number(t->reference_error_mm));
+    json_object_set_new(o, "order", json_number(t->order));
+    json_object_set_new(o, "plain_slope", json_number(t->plain_slope));
+    json_object_set_new(o, "average_slope", json_number(t->average_slope));
     return o;
-}
-
-static void print_csv(const study_table *t, FILE *out)
-{
-    for (int i = -1; i < t->count; i++) {
-        json_t *row = row_json(t, i < 0 ? 0 : i), *value;
-        const char *key, *comma = "";
-        json_object_foreach(row, key, value)
-        {
-            fputs(comma, out);
-            comma = ",";
-            if (i < 0)
-                fputs(key, out);
-            else if (json_is_string(value))
-                fprintf(out, "\"%s\"", json_string_value(value));
-            else if (json_is_boolean(value))
-                fputs(json_is_true(value) ? "1" : "0", out);
-            else if (json_is_real(value))
-                fprintf(out, "%.9g", json_real_value(value));
-        }
-        fputc('\n', out);
-        json_decref(row);
-    }
 }
 
 bool study_write(const study_table *t, const char *folder, err *e)
@@ -207,10 +176,13 @@ bool study_write(const study_table *t, const char *folder, err *e)
         whole_file f;
         snprintf(path, sizeof path, "%s/%s", folder, names[k]);
         if (!whole_file_open(path, &f, e)) return false;
-        if (k)
-            print_csv(t, f.stream);
-        else
+        if (k) {
+            json_t *all = study_json(t);
+            json_table_csv(json_object_get(all, "runs"), f.stream);
+            json_decref(all);
+        } else {
             study_print(t, f.stream);
+        }
         if (!whole_file_close(&f, e)) return false;
     }
     return study_plot(t, folder, e);

@@ -1,5 +1,5 @@
 /* One rung, solved in a child and kept. */
-#include "app/study/study.h"
+#include "app/study/measures.h"
 #include "app/child.h"
 #include "app/colliders.h"
 #include "app/pack_file.h"
@@ -186,6 +186,7 @@ static void work(void *context, void *result)
         describe(&p, &q, &r);
     }
     if (own.ok && app_interrupted()) own.ok = err_set(&own.e, ERR_INTERRUPTED, "interrupted");
+    if (own.ok) study_add_lips(&p);
     own.ok = own.ok && keep(j, &p, &q, &r, &own.e);
     equilibrium_free(&q);
     prepared_free(&p);

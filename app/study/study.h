@@ -53,11 +53,6 @@ typedef struct study_result {
     int32_t inverted;
 } study_result;
 
-typedef struct study_ratio {
-    char soft[16], hard[16];
-    double soft_mm[3], hard_mm[3]; /* forward, up, left */
-} study_ratio;
-
 /* One rung as the journal has it. */
 typedef struct study_run {
     const study_rung *rung;
@@ -136,5 +131,6 @@ void study_print(const study_table *t, FILE *out);
 json_t *study_json(const study_table *t);
 bool study_plot(const study_table *t, const char *folder, err *e) MUST_CHECK;
 
-/* gnathos study --ratios: the standard moves. Prints the table and writes ratios.md and ratios.csv. */
-bool study_ratios(study_task *t, const prepared *p, command_options *common, err *e) MUST_CHECK;
+/* gnathos study --ratios: the standard moves. Prints the table (with --json as an object) and writes ratios.md and
+ * ratios.csv. p: of the case's own mesh; the lips' edges are added to its landmarks. */
+bool study_ratios(study_task *t, prepared *p, const command_options *common, err *e) MUST_CHECK;
