@@ -117,11 +117,11 @@ void study_table_free(study_table *t)
     *t = (study_table){0};
 }
 
-int study_soonest(const study_table *t, double limit_mm, bool p95)
+int study_soonest(const study_table *t, double limit_mm, bool p95, double own_mm)
 {
     int best = -1;
     for (int i = 0; i < t->count; i++) {
-        double error = (p95 ? t->error[i].p95_mm : t->error[i].mean_mm) + t->reference_error_mm;
+        double error = (p95 ? t->error[i].p95_mm : t->error[i].mean_mm) + own_mm;
         if (!counts(t, i) || !(error <= limit_mm)) continue;
         if (best < 0 || t->run[i].result.wall_s < t->run[best].result.wall_s) best = i;
     }

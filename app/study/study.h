@@ -121,9 +121,9 @@ typedef struct study_table {
 } study_table;
 void study_table_make(study_table *t); /* from task, run */
 void study_table_free(study_table *t);
-/* The fastest run whose error, the reference's own included, is at most so large; -1: none. p95: by the 95th
+/* The fastest run whose error and own_mm, of the reference, are at most so large; -1: none. p95: by the 95th
  * percentile, else by the mean. */
-int study_soonest(const study_table *t, double limit_mm, bool p95);
+int study_soonest(const study_table *t, double limit_mm, bool p95, double own_mm);
 
 /* study.md, study.csv, error_time.png/.svg, error_size.png/.svg in the folder. */
 bool study_write(const study_table *t, const char *folder, err *e) MUST_CHECK;

@@ -67,6 +67,8 @@ void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *gu
 void contact_refresh(contact *c, const double *x);
 /* Energy in uJ; adds to force[3*nodes] (may be NULL). */
 double contact_energy(contact *c, const double *x, double *force);
+/* What rounding of x does to the forces of the last contact_energy, as a norm, mN. */
+double contact_force_noise(const contact *c, const double *x);
 /* Adds to a->edge_block. exact: with the curvature of the distance (indefinite), else Gauss-Newton. */
 void contact_stiffness(contact *c, const double *x, bool exact, assembly *a);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */

@@ -1,5 +1,6 @@
 #include "sim/src/descent.h"
 #include "geometry/mem.h"
+#include "geometry/vec.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,7 +93,27 @@ static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, dou
     }
 }
 
-/* Iterates until the residual is below d->tolerance. */
+/* The residual is low, and not because it is a bad measure. */
+static bool is_solved(descent *d)
+{
+    if (d->touching) d->tolerance = fmax(d->asked, contact_force_noise(d->t->touch, d->x));
+    return d->residual <= d->tolerance && !(d->last_step > d->settled);
+}
+
+/* How far bones move from where the guide would carry them. */
+static double bones_move(const solver *t)
+{
+    double most = 0;
+    for (int32_t v = 0; v < t->b.node_count; v++) {
+        double carried[3];
+        if (t->attach->kind[v] == NODE_FREE) continue;
+        rigid_apply(&t->b.guide, t->mesh->xyz + 3 * (size_t)v, carried);
+        most = fmax(most, vec_distance(carried, t->b.origin + 3 * (size_t)v));
+    }
+    return most;
+}
+
+/* Iterates until is_solved. */
 static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *outcome, err *e)
 {
     bool ok = true, fresh = false;
@@ -100,12 +121,12 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
     d->energy_noise = assembly_energy_noise(&d->t->a, d->x);
     d->residual_at_factor = d->residual;
     for (int iteration = 1;; iteration++) {
-        bool low = d->residual <= d->tolerance;
+        bool low = is_solved(d);
         if (d->touching && !fresh && (low || iteration <= d->t->touch->setup.params.refresh_iterations)) {
             refresh(d);
             fresh = true;
         }
-        if (d->residual <= d->tolerance && d->touching && contact_stiffen(d->t->touch)) {
+        if (d->touching && is_solved(d) && contact_stiffen(d->t->touch)) {
             if (++stiffenings > d->t->touch->setup.params.max_stiffenings) {
                 *outcome = STOPPED_PENETRATION;
                 return true;
@@ -113,7 +134,7 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             point_measure(d);
             d->has_factor = false;
         }
-        if (d->residual <= d->tolerance) {
+        if (is_solved(d)) {
             *outcome = SOLVED;
             return true;
         }
@@ -133,8 +154,8 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             *outcome = STOPPED_SINGULAR;
             return true;
         }
-        if (!(step > 0)) {
-            *outcome = STOPPED_LINE_SEARCH;
+        if (!(step > 0)) { /* where the residual is low, the last step was as far as rounding lets it go */
+            *outcome = d->residual <= d->tolerance ? SOLVED : STOPPED_LINE_SEARCH;
             return true;
         }
         fresh = false;
@@ -150,12 +171,14 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
 static bool run_free(descent *d, double reference, bool *interrupted, err *e)
 {
     const contact_params *p = &d->t->touch->setup.params;
-    double tolerance = d->tolerance;
+    double tolerance = d->tolerance, settled = d->settled;
     solve_outcome outcome;
     d->tolerance = fmax(tolerance, p->free_rel_tol * reference);
+    d->settled = HUGE_VAL;
     bool ok = iterate(d, p->free_iterations, &d->out->contact.free_iterations, &outcome, e);
     *interrupted = ok && outcome == STOPPED_INTERRUPTED;
     d->tolerance = tolerance;
+    d->settled = settled;
     return ok;
 }
 
@@ -170,6 +193,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     d->inexact = use_gradients(t, d->params);
     d->residual_before = 0;
     d->cg_at_load = 0;
+    d->last_step = 0;
     d->cut = false;
     int cg = 0;
     double reference = start_reference(d), factor_s = 0;
@@ -177,7 +201,8 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     boundary_project(&t->b, x_start, d->z);
     boundary_place(&t->b, d->z, d->x);
     floor = fmax(floor, assembly_force_noise(&t->a, d->x));
-    d->tolerance = fmax(rel_tol * reference, floor);
+    d->tolerance = d->asked = fmax(rel_tol * reference, floor);
+    d->settled = rel_tol * reference > floor ? sqrt(rel_tol) * bones_move(t) : HUGE_VAL;
     d->out->reference_mn = reference;
     if (t->touch) {
         d->touching = true;

@@ -64,9 +64,10 @@ static void the_soonest_is_near_enough_with_the_references_own_error(void **stat
     assert_near(t.reference_error_mm, 0.04 / (exp2(t.order) - 1), 1e-9);
     assert_true(t.best[study_family[0]] && t.best[study_family[1]] && t.best[study_default]);
     assert_false(t.best[study_family[2]]); /* slower and farther than the default */
-    assert_int_equal(study_soonest(&t, 0.1, false), study_default);
-    assert_int_equal(study_soonest(&t, 0.5, false), study_family[0]);
-    assert_int_equal(study_soonest(&t, 0.04, false), -1); /* 0.04 and the reference's own */
+    assert_int_equal(study_soonest(&t, 0.1, false, t.reference_error_mm), study_default);
+    assert_int_equal(study_soonest(&t, 0.5, false, t.reference_error_mm), study_family[0]);
+    assert_int_equal(study_soonest(&t, 0.04, false, t.reference_error_mm), -1);
+    assert_int_equal(study_soonest(&t, 0.05, false, 0), study_default);
     study_table_free(&t);
 }
 
