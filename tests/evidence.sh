@@ -76,8 +76,10 @@ done
 took() { [ ! -f "$work/$1.seconds" ] || awk '{ printf " It took %.0f minutes.", $1 / 60 + 0.5 }' "$work/$1.seconds"; }
 body() { sed '1d;s/^#/##/' "$1"; } # without the title, headings one level down
 outside() { # ratios.md: what lies outside, one a line
-    awk -F'|' '/OUTSIDE/ { for (k = 2; k <= 7; k++) gsub(/^ +| +$/, "", $k)
-        printf "  * %s, %s: %s where %s is published (window %s)%s\n", $2, $3, $4, $7, $6, /within the bar/ ? "; within the numerical bar" : "" }' "$1"
+    awk -F'|' '/OUTSIDE/ { for (k = 2; k <= 8; k++) gsub(/^ +| +$/, "", $k)
+        sub(/^OUTSIDE,? ?/, "", $8)
+        sub(/^: /, "", $8)
+        printf "  * %s, %s: **%s**; published %s, window %s%s\n", $2, $3, $4, $7, $6, $8 == "" ? "" : " (" $8 ")" }' "$1"
 }
 verification() {
     if [ ! -f "$work/physics.log" ]; then
@@ -111,7 +113,8 @@ page=$work/EVIDENCE.md
     echo "move, and that answer is exact to far below anything visible: it is checked here against closed forms, other programs"
     echo "and stiff and extreme cases. Its mesh adds a few tenths of a millimetre, measured below. Whether the question is the"
     echo "right one, whether a face behaves like that body, is **not** shown here: it is only compared with published averages,"
-    echo "and where it lies outside of them is listed first. Trust the chin and the jaw's outline most, nose and lips least."
+    echo "and where it lies outside of them is listed first. Trust the chin under a moved jaw most; lips, nose and the chin that a"
+    echo "genioplasty shortens least."
     echo
     echo "Made by \`sh tests/evidence.sh build/app/gnathos WORK\` on $(date -u +%Y-%m-%d), version $("$gnathos" --version | cut -d' ' -f2), on $(nproc) cores"
     echo "($(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1)). Counts and errors do not depend on the machine; times do, and other work on"
@@ -183,8 +186,12 @@ END
 ## Stiff and extreme cases
 
 \`gnathos stress\`.$(took stress) Each case has its right kind of outcome: solved, refused with a reason, or given up with one.
-What is called solved is checked from the returned positions alone: forces, volumes, places, and how far one more Newton step
-would still go. Times are processor time.
+What is called solved is checked from the returned positions alone: forces, volumes, places. *Newton step* is how far the
+farthest node would still go in one more step, the error that is left (not taken with contact and averaged volumes). *Inverted*
+tets are turned inside out: the material allows it, a body does not, so they are counted. *Not a minimum* means that forces
+balance but the tissue would rather buckle. *Known limit* is what the solver does not do yet, with its reason below the table.
+Many iterations are no error: a plate 1e8 times stiffer than what it lies in (layers/1e8) turns by small steps only. Times are
+processor time.
 
 END
     cat "$work/stress/stress.md"

@@ -19,7 +19,7 @@ typedef struct answer {
     const study_measure *m;
     double value[MESHES], bar; /* NaN: not known */
     int verdict;
-    char why[96]; /* of NOT_KNOWN */
+    char why[96]; /* of NOT_KNOWN; else what the reader should know, or "" */
 } answer;
 
 static void judge(answer *a)
@@ -58,8 +58,8 @@ static void print_row(const answer *a, FILE *out)
     else
         fprintf(out, "%.2f | %.2f | ", a->value[0], a->bar);
     print_window(a->m, out);
-    fprintf(out, " | %s | %s%s%s |\n", a->m->published, verdict_text[a->verdict],
-            a->verdict == NOT_KNOWN ? ": " : "", a->verdict == NOT_KNOWN ? a->why : "");
+    fprintf(out, " | %s | %s%s%s |\n", a->m->published, verdict_text[a->verdict], a->why[0] ? ": " : "",
+            a->why);
 }
 
 static void print(const answer *a, const char *name, FILE *out)
@@ -176,7 +176,9 @@ bool study_ratios(study_task *t, prepared *p, const command_options *common, err
         if (!run_move(t, move, p, common, a, e)) return false;
     for (int i = 0; i < STUDY_MEASURES; i++) {
         judge(&a[i]);
-        if (a[i].verdict != NOT_KNOWN) a[i].why[0] = 0;
+        if (a[i].verdict == NOT_KNOWN) continue;
+        bool stands_in = a[i].m->kind == MEASURE_TURNS && !landmarks_find(&p->points, "Cm");
+        snprintf(a[i].why, sizeof a[i].why, "%s", stands_in ? "Pn stands for Cm" : "");
     }
     if (!write(a, t, e)) return false;
     if (common->json)

@@ -14,7 +14,8 @@ static const char *const group_text[GROUP_COUNT] = {"mesh",     "element", "tole
 static void print_soonest(const study_table *t, double most_mm, bool p95, FILE *out)
 {
     int i = study_soonest(t, most_mm, p95, t->reference_error_mm), near = study_soonest(t, most_mm, p95, 0);
-    fprintf(out, "* %.2f mm for %s: ", most_mm, p95 ? "95 % of the moved skin" : "the mean of the moved skin");
+    fprintf(out, "* %.2f mm for %s: ", most_mm,
+            p95 ? "95 % of the moved skin" : "the mean of the moved skin");
     if (i >= 0)
         fprintf(out, "**%s**, %.2f s", t->run[i].rung->name, t->run[i].result.wall_s);
     else
@@ -30,32 +31,42 @@ static void print_orders(const study_table *t, FILE *out)
     const study_error *own = &t->error[study_default];
     const char *reference = study_rungs[study_reference].name, *coarsest = study_rungs[study_family[0]].name;
     fprintf(out,
-            "One prediction, computed in %d ways and compared with the finest of them, the reference \"%s\": the case's "
-            "own mesh with every edge halved, eight times the tets. An error is the distance between the two skins at "
-            "the same vertex, over the %d vertices that move by more than 0.1 mm. \"edges x 2\" is a mesh made anew with "
-            "edges twice as long as the case's: surface and attachments change with it. \"halved\" splits each tet in "
+            "One prediction, computed in %d ways and compared with the finest of them, the reference \"%s\": "
+            "the case's "
+            "own mesh with every edge halved, eight times the tets. An error is the distance between the two "
+            "skins at "
+            "the same vertex, over the %d vertices that move by more than 0.1 mm. \"edges x 2\" is a mesh "
+            "made anew with "
+            "edges twice as long as the case's: surface and attachments change with it. \"halved\" splits "
+            "each tet in "
             "eight and keeps them: what it changes is the discretisation alone.\n\n",
             t->count, reference, own->vertices);
     fprintf(out, "The case's own mesh is %.3f mm off in the mean, %.3f mm at 95 %%, %.2f mm at most. ",
             own->mean_mm, own->p95_mm, own->max_mm);
     study_error anew = study_compare(&t->run[study_default + 1], &t->run[study_default]);
     fprintf(out,
-            "Meshed anew with \"%s\", the skin differs from that of the case's own mesh by %.3f mm in the mean and "
+            "Meshed anew with \"%s\", the skin differs from that of the case's own mesh by %.3f mm in the "
+            "mean and "
             "%.3f mm at 95 %%, which no halving shows.\n\n",
             study_rungs[study_default + 1].name, anew.mean_mm, anew.p95_mm);
     if (isnan(t->order))
         fprintf(out,
-                "How good is the reference? \"%s\", halved and halved twice give no order of convergence, so it is only "
+                "How good is the reference? \"%s\", halved and halved twice give no order of convergence, so "
+                "it is only "
                 "known to be off by about its distance to the mesh that was halved, %.3f mm in the mean. ",
                 coarsest, t->reference_error_mm);
     else
-        fprintf(out,
-                "How good is the reference? \"%s\", halved and halved twice converge with order %.2f (in the mean); if "
-                "the case's own mesh and its half do so too, the reference is itself off by %.3f mm in the mean "
-                "(Richardson's extrapolation%s). ",
-                coarsest, t->order, t->reference_error_mm,
-                t->order < 0.8 ? "; an order so far below 1 makes this a cautious bound" : "");
-    fprintf(out, "Over meshes made anew the mean error falls with size to the power %.2f, with averaged volumes %.2f.\n\n",
+        fprintf(
+            out,
+            "How good is the reference? \"%s\", halved and halved twice converge with order %.2f (in the "
+            "mean); if "
+            "the case's own mesh and its half do so too, the reference is itself off by %.3f mm in the mean "
+            "(Richardson's extrapolation%s). ",
+            coarsest, t->order, t->reference_error_mm,
+            t->order < 0.8 ? "; an order so far below 1 makes this a cautious bound" : "");
+    fprintf(out,
+            "Over meshes made anew the mean error falls with size to the power %.2f, with averaged volumes "
+            "%.2f.\n\n",
             t->plain_slope, t->average_slope);
     fprintf(out, "Which setting reaches an error soonest, the reference's own counted in:\n\n");
 }
@@ -86,13 +97,16 @@ void study_print(const study_table *t, FILE *out)
     print_orders(t, out);
     for (int k = 0; k < 4; k++) print_soonest(t, k % 2 ? 0.02 : 0.1, k >= 2, out);
     fprintf(out,
-            "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. Rows of other materials, of "
-            "another Poisson ratio and of contact answer another question: there the last columns say how much the "
+            "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. Rows of other "
+            "materials, of "
+            "another Poisson ratio and of contact answer another question: there the last columns say how "
+            "much the "
             "answer changes, and are no error. \"front\" marks what nothing beats in both time and mean "
             "error. \"averaged\" is the element with averaged volumes, which locks less; it has a single "
             "material here, so the nose's septum is soft in it.\n\n",
             t->cores);
-    fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (of them with contact) | factors | wall s | CPU s "
+    fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (of them with contact) | factors | "
+                 "wall s | CPU s "
                  "| order/assemble/factor/solve s "
                  "| peak MB | mean mm | 95 %% mm | max mm | front |\n");
     fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
@@ -121,29 +135,29 @@ static json_t *row_json(const study_table *t, int i)
     json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting",
                           study_rungs[i].name, "outcome", r->text, "solved", r->solved, "front", t->best[i]);
     const json_column numbers[] = {{"nodes", r->nodes},
-                   {"tets", r->tets},
-                   {"unknowns", (double)r->unknowns},
-                   {"size_mm", r->size_mm},
-                   {"iterations", r->iterations},
-                   {"free_iterations", r->free_iterations},
-                   {"contact_iterations", r->contact_iterations},
-                   {"factorisations", r->factorisations},
-                   {"loads", r->loads},
-                   {"wall_s", r->wall_s},
-                   {"cpu_s", r->cpu_s},
-                   {"prepare_s", r->prepare_s},
-                   {"assemble_s", r->assemble_s},
-                   {"factor_s", r->factor_s},
-                   {"solve_s", r->solve_s},
-                   {"meshing_s", r->meshing_s > 0 ? r->meshing_s : (double)NAN},
-                   {"peak_MB", r->peak_mb},
-                   {"residual_mN", r->residual_mn},
-                   {"initial_residual_mN", r->initial_mn},
-                   {"min_J", r->min_j},
-                   {"inverted_tets", r->inverted},
-                   {"mean_error_mm", t->error[i].mean_mm},
-                   {"p95_error_mm", t->error[i].p95_mm},
-                   {"max_error_mm", t->error[i].max_mm}};
+                                   {"tets", r->tets},
+                                   {"unknowns", (double)r->unknowns},
+                                   {"size_mm", r->size_mm},
+                                   {"iterations", r->iterations},
+                                   {"free_iterations", r->free_iterations},
+                                   {"contact_iterations", r->contact_iterations},
+                                   {"factorisations", r->factorisations},
+                                   {"loads", r->loads},
+                                   {"wall_s", r->wall_s},
+                                   {"cpu_s", r->cpu_s},
+                                   {"prepare_s", r->prepare_s},
+                                   {"assemble_s", r->assemble_s},
+                                   {"factor_s", r->factor_s},
+                                   {"solve_s", r->solve_s},
+                                   {"meshing_s", r->meshing_s > 0 ? r->meshing_s : (double)NAN},
+                                   {"peak_MB", r->peak_mb},
+                                   {"residual_mN", r->residual_mn},
+                                   {"initial_residual_mN", r->initial_mn},
+                                   {"min_J", r->min_j},
+                                   {"inverted_tets", r->inverted},
+                                   {"mean_error_mm", t->error[i].mean_mm},
+                                   {"p95_error_mm", t->error[i].p95_mm},
+                                   {"max_error_mm", t->error[i].max_mm}};
     json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     return o;
 }
