@@ -98,28 +98,41 @@ static void begin(const char *device, const char *path, const picture *p, const 
     plmtex("t", 0.9, 0.5, 0.5, subtitle);
 }
 
-/* Beside the frame. */
-static void legend(const bool used[SERIES], const char *more)
+/* One line of the legend, at height y of the frame. */
+static void entry(double y, int colour, const char *sign, const char *text)
 {
+    plcol0(colour);
+    plmtex("rv", 1.2, y, 0.5, sign);
+    plcol0(INK);
+    plmtex("rv", 2.2, y, 0, text);
+}
+
+/* Beside the frame. */
+static void legend(const bool used[SERIES], bool over_time, bool reference)
+{
+    const double line_high = 0.045;
     double y = 0.97;
     plschr(0, 0.72);
     for (int s = 0; s < SERIES; s++) {
         if (!used[s]) continue;
-        plcol0(FIRST_SERIES + s);
-        plmtex("rv", 1.2, y, 0.5, series[s].mark);
-        plcol0(INK);
-        plmtex("rv", 2.2, y, 0, series[s].text);
-        y -= 0.045;
+        entry(y, FIRST_SERIES + s, series[s].mark, series[s].text);
+        y -= line_high;
     }
-    if (used[HALVED]) plmtex("rv", 2.2, y, 0, "its own finest");
-    plmtex("rv", 1.2, 0.10, 0, "x2: edges twice as long");
-    plmtex("rv", 1.2, 0.06, 0, "/2: every edge halved");
-    plmtex("rv", 1.2, 0.02, 0, "1e-04: of the first force");
-    if (!more) return;
-    plcol0(FRONT);
-    plmtex("rv", 1.2, y, 0.5, "—");
-    plcol0(INK);
-    plmtex("rv", 2.2, y, 0, more);
+    if (used[HALVED]) {
+        entry(y, INK, "", "its own finest");
+        y -= line_high;
+    }
+    if (over_time) {
+        entry(y, FRONT, "—", "the best (Pareto front)");
+        y -= line_high;
+    }
+    if (reference) {
+        entry(y, FRONT, "- -", "what the finest mesh");
+        entry(y - line_high, INK, "", "is itself off, about");
+    }
+    plmtex("rv", 1.2, 0.02, 0, "/2: every edge halved");
+    plmtex("rv", 1.2, 0.02 + line_high, 0, "x2: edges twice as long");
+    if (used[TOLERANCES]) plmtex("rv", 1.2, 0.02 + 2 * line_high, 0, "1e-04: of the first force");
 }
 
 /* In parts of the frame. */
@@ -135,8 +148,9 @@ static bool meet(const box *a, const box *b)
 /* Marks, and beside each its name in the first of six places that is free; none where none is. */
 static void mark(const spot *s, int count, const picture *p)
 {
-    static const double at[6][3] = {{0.014, 0, 0},   {-0.014, 0, 1},   {0, 0.03, 0.5}, {0, -0.03, 0.5},
-                                    {0.01, 0.03, 0}, {-0.01, -0.03, 1}}; /* right, up, justified */
+    /* right, up, justified */
+    static const double at[6][3] = {{0.012, 0.03, 0},   {0.012, -0.03, 0}, {-0.012, 0.03, 1},
+                                    {-0.012, -0.03, 1}, {0.016, 0, 0},     {-0.016, 0, 1}};
     box taken[2 * SPOTS_MAX];
     int boxes = 0;
     for (int i = 0; i < count; i++) {
@@ -230,18 +244,16 @@ static void describe_orders(const study_table *t, char *out, size_t size)
              text[0], text[1], text[2]);
 }
 
-static void draw_reference(const study_table *t, const picture *p)
+/* False: it lies outside of the frame. */
+static bool draw_reference(const study_table *t, const picture *p)
 {
     double y = log10(t->reference_error_mm);
-    if (!(y > p->y0 && y < p->y1)) return;
+    if (!(y > p->y0 && y < p->y1)) return false;
     plcol0(FRONT);
     pllsty(2);
     line(p->x0, y, p->x1, y);
     pllsty(1);
-    plschr(0, 0.62);
-    plptex(p->x0 + 0.02 * (p->x1 - p->x0), y - 0.02 * (p->y1 - p->y0), 1, 0, 0,
-           isnan(t->order) ? "about what the finest mesh itself is off"
-                           : "what the finest mesh itself is off, by Richardson");
+    return true;
 }
 
 static bool draw(const study_table *t, bool over_time, const char *device, const char *path)
@@ -259,7 +271,7 @@ static bool draw(const study_table *t, bool over_time, const char *device, const
     begin(device, path, &p,
           over_time ? "wall time of the solve, s" : "mean size of a tet, mm (cube root of its volume)",
           "mean skin error, mm", title, subtitle);
-    draw_reference(t, &p);
+    bool reference = draw_reference(t, &p);
     if (over_time) {
         draw_front(t, s, count);
     } else {
@@ -267,7 +279,7 @@ static bool draw(const study_table *t, bool over_time, const char *device, const
         draw_slopes(&p);
     }
     mark(s, count, &p);
-    legend(used, over_time ? "the best (Pareto front)" : NULL);
+    legend(used, over_time, reference);
     plend();
     return true;
 }
