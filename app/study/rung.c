@@ -82,7 +82,7 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
 {
     plan_tissue flesh;
     if (!plan_tissue_make(t->patient, p, t->motion, r->contact, &flesh, e)) return false;
-    if (r->average) { /* one material only */
+    if (r->average && STUDY_AVERAGE_IS_PLAIN) {
         flesh.mesh.region = p->tissue.mesh.region;
         flesh.material_count = 1;
     }

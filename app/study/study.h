@@ -16,6 +16,9 @@ typedef enum study_group {
     GROUP_COUNT
 } study_group;
 
+/* Averaged volumes are of one material: their rungs have no stiff septum. 0: of several. */
+enum { STUDY_AVERAGE_IS_PLAIN = 1 };
+
 typedef struct study_rung {
     const char *name;
     int group;
