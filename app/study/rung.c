@@ -232,7 +232,8 @@ static bool add_peak(const char *path, double peak_mb, err *e)
 
 bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool *fresh, err *e)
 {
-    enum { LIMIT_CPU_S = 3600 };
+    enum { LIMIT_CPU_S = 1200, LIMIT_CONTACT_S = 300 }; /* contact at times crawls, and only the curious wait */
+    int limit_s = rung->contact ? LIMIT_CONTACT_S : LIMIT_CPU_S;
     char path[FIELD_PATH_SIZE + 160];
     rung_path(t, rung, path, sizeof path);
     *out = (study_run){.rung = rung};
@@ -241,14 +242,14 @@ bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool
     job j = {t, rung, path};
     reply r = {0};
     child_use use;
-    child_end end = child_run(work, &j, &r, sizeof r, LIMIT_CPU_S, &use);
+    child_end end = child_run(work, &j, &r, sizeof r, limit_s, &use);
     *fresh = true;
     if (end == CHILD_INTERRUPTED || app_interrupted())
         return err_set(e, ERR_INTERRUPTED,
                        "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
     if (end != CHILD_DONE) { /* not kept: another time it may come through */
-        snprintf(out->result.text, sizeof out->result.text, "%s",
-                 end == CHILD_LATE ? "no end in an hour" : "crashed (out of memory?)");
+        snprintf(out->result.text, sizeof out->result.text,
+                 end == CHILD_LATE ? "no end in %d s of processor time" : "crashed (out of memory?)", limit_s);
         out->result.peak_mb = use.peak_mb;
         return true;
     }
