@@ -91,38 +91,56 @@ static void print_tubes(const study_table *t, FILE *out)
     }
 }
 
+static bool is_other_question(int i)
+{
+    return study_rungs[i].group == GROUP_MATERIAL || study_rungs[i].contact;
+}
+
 void study_print(const study_table *t, FILE *out)
 {
     fprintf(out, "# Error against run time: %s, %s\n\n", t->task->patient->name, t->plan_name);
     print_orders(t, out);
     for (int k = 0; k < 4; k++) print_soonest(t, k % 2 ? 0.02 : 0.1, k >= 2, out);
-    fprintf(out,
-            "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. Rows of other materials, of "
-            "another Poisson ratio and of contact answer another question: there the last columns say how much "
-            "the answer changes, and are no error. \"front\" marks what nothing beats in both time and mean "
-            "error. \"averaged\" is the element with averaged volumes, which locks less%s.\n\n",
-            t->cores,
-            STUDY_AVERAGE_IS_PLAIN ? "; it has a single material here, so the nose's septum is soft in it" : "");
+    fprintf(
+        out,
+        "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. \"changes\" is the "
+        "distance to "
+        "the skin of the case's own settings, for runs on the same mesh: what a tolerance, a thread, a load "
+        "step or tissue left out does to the answer. Rows of other materials, of another Poisson ratio and "
+        "of "
+        "contact answer another question: only that column says something of them. \"front\" marks what "
+        "nothing "
+        "beats in both time and mean error. \"averaged\" is the element with averaged volumes, which locks "
+        "less%s.\n\n",
+        t->cores,
+        STUDY_AVERAGE_IS_PLAIN ? "; it has a single material here, so the nose's septum is soft in it" : "");
     fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (of them with contact) | factors | "
                  "wall s | CPU s "
                  "| order/assemble/factor/solve s "
-                 "| peak MB | mean mm | 95 %% mm | max mm | front |\n");
-    fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+                 "| peak MB | mean error mm | 95 %% mm | max mm | changes by mm, mean (max) | front |\n");
+    fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < t->count; i++) {
         const study_result *r = &t->run[i].result;
         fprintf(out, "| %s | %s | %s | ", group_text[study_rungs[i].group], study_rungs[i].name, r->text);
         if (!r->solved) {
-            fprintf(out, "| | | | | | | %.0f | | | | |\n", r->peak_mb);
+            fprintf(out, "| | | | | | | %.0f | | | | | |\n", r->peak_mb);
             continue;
         }
         fprintf(out, "%d | %lld | %d (%d) | %d | %.2f | %.2f | %.2f/%.2f/%.2f/%.2f | %.0f | ", r->nodes,
                 (long long)r->unknowns, r->iterations, r->contact_iterations, r->factorisations, r->wall_s,
                 r->cpu_s, r->prepare_s, r->assemble_s, r->factor_s, r->solve_s, r->peak_mb);
+        const study_error *error = &t->error[i], *change = &t->change[i];
         if (i == study_reference)
-            fprintf(out, "reference | | | |\n");
+            fprintf(out, "reference | | | ");
+        else if (is_other_question(i))
+            fprintf(out, "| | | ");
         else
-            fprintf(out, "%.4f | %.4f | %.3f | %s |\n", t->error[i].mean_mm, t->error[i].p95_mm,
-                    t->error[i].max_mm, t->best[i] ? "yes" : "");
+            fprintf(out, "%.3f | %.3f | %.2f | ", error->mean_mm, error->p95_mm, error->max_mm);
+        if (isnan(change->mean_mm) || i == study_default)
+            fprintf(out, "| ");
+        else
+            fprintf(out, "%.2g (%.2g) | ", change->mean_mm, change->max_mm);
+        fprintf(out, "%s |\n", t->best[i] ? "yes" : "");
     }
     print_tubes(t, out);
 }
@@ -155,7 +173,9 @@ static json_t *row_json(const study_table *t, int i)
                                    {"inverted_tets", r->inverted},
                                    {"mean_error_mm", t->error[i].mean_mm},
                                    {"p95_error_mm", t->error[i].p95_mm},
-                                   {"max_error_mm", t->error[i].max_mm}};
+                                   {"max_error_mm", t->error[i].max_mm},
+                                   {"mean_change_mm", t->change[i].mean_mm},
+                                   {"max_change_mm", t->change[i].max_mm}};
     json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     return o;
 }

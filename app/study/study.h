@@ -116,6 +116,7 @@ typedef struct study_table {
     int count;
     study_run *run;                   /* [count] as study_rungs */
     study_error *error;               /* [count] to the reference */
+    study_error *change;              /* [count] to the case's own settings, of runs on its own mesh; else NaN */
     bool *best;                       /* [count] on the Pareto front of the mean error over wall time */
     double order, reference_error_mm; /* Richardson: of the family; of the reference, in the mean */
     double plain_slope, average_slope;
