@@ -50,8 +50,8 @@ void stress_print(const stress_case *const *c, const stress_result *r, int count
         fprintf(out, "* %s: %s (%s)%s%s\n", c[i]->name, r[i].wrong, r[i].text, c[i]->known ? "; known: " : "",
                 c[i]->known ? c[i]->known : "");
     }
-    fprintf(out, "%s%d cases, %d not as expected, %d known limits\n", wrong + known ? "\n" : "", count, wrong,
-            known);
+    fprintf(out, "%s%d cases, %d not as expected, %d known limit%s\n", wrong + known ? "\n" : "", count, wrong,
+            known, known == 1 ? "" : "s");
 }
 
 static json_t *as_json(const stress_case *c, const stress_result *r)

@@ -82,7 +82,7 @@ static void uniaxial_and_biaxial_stresses_are_the_closed_forms(void **state)
                     if (i % 4) assert_near(P[i], 0, 1e-10 * young);
             }
     }
-    evidence("uniaxial and biaxial stress to stretch 2.5, every material, of Young's modulus", worst, "-");
+    evidence("uniaxial and biaxial stress to stretch 2.5, every material, relative to Young's modulus", worst, "-");
 }
 
 /* Simple shear g: stretches a, 1, 1/a with a - 1/a = g, turned by tan(theta) = g/2. */
@@ -110,7 +110,7 @@ static void simple_shear_is_the_closed_form(void **state)
             assert_near(P[8], P3, 1e-10 * young);
         }
     }
-    evidence("simple shear to 2, every material, of Young's modulus", worst, "-");
+    evidence("simple shear to 2, every material, relative to Young's modulus", worst, "-");
 }
 
 /* A bar between two plates on which it slides; one node is held so that it does not drift, another so that it

@@ -65,7 +65,7 @@ static void forces_are_the_derivative_of_energy_and_hessian_of_forces(void **sta
                 }
             }
     assert_true(inverted > 10);
-    evidence("stress and stiffness of every material against differences of its energy, of mu + lambda", worst, "-");
+    evidence("stress and stiffness of every material against differences of its energy, relative to mu + lambda", worst, "-");
 }
 
 static void rest_has_no_stress_and_no_energy_at_any_rotation(void **state)
