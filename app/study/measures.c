@@ -8,6 +8,7 @@
 #include "geometry/mem.h"
 #include "geometry/rig.h"
 #include "geometry/vec.h"
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -196,7 +197,8 @@ double study_measure_value(const study_measure *m, const prepared *p, const stud
 {
     const double least_mm = 0.5; /* a bone that moves less says nothing */
     double soft, hard, unknown = (double)NAN;
-    if (!r->point_mm || r->point_count != p->points.count) return unknown;
+    if (!r->point_mm) return unknown;
+    assert(r->point_count == p->points.count);
     switch ((study_measure_kind)m->kind) {
     case MEASURE_WIDENS:
         return widening(p, r, m->soft, m->hard);

@@ -93,9 +93,12 @@ static json_t *as_json(const answer *a)
     char name[96];
     study_measure_name(a->m, name, sizeof name);
     json_t *o = json_pack("{ss ss}", "move", study_moves[a->m->move].name, "measure", name);
-    const json_column numbers[] = {
-        {"value", a->value[0]}, {meshes[1].name, a->value[1]}, {meshes[2].name, a->value[2]}, {"bar", a->bar},
-        {"low", a->m->low},     {"high", a->m->high}};
+    const json_column numbers[] = {{"value", a->value[0]},
+                                   {"value_edges_x1.5", a->value[1]},
+                                   {"value_edges_x2_halved", a->value[2]},
+                                   {"bar", a->bar},
+                                   {"low", a->m->low},
+                                   {"high", a->m->high}};
     json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     json_object_set_new(o, "published", json_string(a->m->published));
     json_object_set_new(o, "verdict", json_string(verdict_text[a->verdict]));
