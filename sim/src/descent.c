@@ -202,7 +202,8 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     boundary_place(&t->b, d->z, d->x);
     floor = fmax(floor, assembly_force_noise(&t->a, d->x));
     d->tolerance = d->asked = fmax(rel_tol * reference, floor);
-    d->settled = rel_tol * reference > floor ? sqrt(rel_tol) * bones_move(t) : HUGE_VAL;
+    bool on_the_way = load < 1 || rel_tol * reference <= floor;
+    d->settled = on_the_way ? HUGE_VAL : sqrt(rel_tol) * bones_move(t);
     d->out->reference_mn = reference;
     if (t->touch) {
         d->touching = true;

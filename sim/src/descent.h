@@ -64,8 +64,8 @@ void descent_free(descent *d);
 /* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they
  * were). free_first: with contact, phase A comes before. False: refused. *outcome is never SOLVED unless the
  * residual is below the tolerance; d->x is the last iterate. Where flat tets make the first residual huge, a part of it
- * says little: so the last step must be small as well, below sqrt(rel_tol) of the bones' move against the tissue. A Newton
- * step converges quadratically, so that this asks for nothing more where the residual is a good measure. */
+ * says little: so at load 1 the last step must be small as well, below sqrt(rel_tol) of the bones' move against the tissue.
+ * A Newton step converges quadratically, so that this asks for nothing more where the residual is a good measure. */
 bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
                  solve_outcome *outcome, err *e) MUST_CHECK;
 
