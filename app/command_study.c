@@ -130,7 +130,7 @@ static bool ratios(const struct input *in, study_task *task, err *e)
 {
     prepared p;
     if (!prepared_get(task->patient, in->cache, NULL, NULL, &p, e)) return false;
-    bool ok = study_ratios(task, &p, (command_options *)&in->common, e);
+    bool ok = study_ratios(task, &p, &in->common, e);
     prepared_free(&p);
     return ok;
 }

@@ -9,6 +9,9 @@
  * of surfaces within it, feels nothing until it comes nearer than it was, so a plan that moves nothing moves
  * nothing; elsewhere the surfaces themselves must meet. No friction; no suction: tissue may lift off.
  *
+ * What is sharper than h is smoothed away: a spike narrower than that, and steep, is not felt. The depths that
+ * contact_report tells are below the smoothed surface.
+ *
  * Only samples that face the node are asked (a plate thinner than h would else have no inside). A node that
  * got deeper than 0.4 h under a surface sees with a wider support, renewed at each Newton step, until it is
  * out. Lips: the samples are nodes of the other lip. Their normals and weights are frozen at each refresh, so

@@ -4,15 +4,12 @@
 #define BLOCK .cells = {5, 5, 5}, .size = {25, 25, 20}, .move = {3, 2, 4}
 #define FLAT(kind, number) \
     {.name = #kind "/" #number, .what = "a block with many of them, pulled and sheared", .body = specimen_##kind, BLOCK, .p = number}
-#define FLATTEST(kind) \
-    {.name = #kind "/1e-6", .what = "a block with many of them, pulled and sheared", .body = specimen_##kind, BLOCK, .p = 1e-6, \
-     .known = "the tolerance is a part of the first force, which such tets make huge: about 0.1 % of the move is left"}
 #define START(label, text, which) \
     {.name = "start/" label, .what = text, .body = specimen_block, BLOCK, .start = which}
 
 static const stress_case cases[] = {
-    FLAT(caps, 1e-2), FLAT(caps, 1e-4), FLATTEST(caps), FLAT(wedges, 1e-2), FLAT(wedges, 1e-4), FLATTEST(wedges),
-    FLAT(needles, 1e-2), FLAT(needles, 1e-4), FLATTEST(needles), FLAT(slivers, 1e-2), FLAT(slivers, 1e-4),
+    FLAT(caps, 1e-2), FLAT(caps, 1e-4), FLAT(caps, 1e-6), FLAT(wedges, 1e-2), FLAT(wedges, 1e-4), FLAT(wedges, 1e-6),
+    FLAT(needles, 1e-2), FLAT(needles, 1e-4), FLAT(needles, 1e-6), FLAT(slivers, 1e-2), FLAT(slivers, 1e-4),
     FLAT(slivers, 1e-6),
     {.name = "graded/1e4", .what = "cells grow 10000-fold from one side to the other", .body = specimen_graded,
      .cells = {16, 4, 4}, .size = {40, 20, 20}, .move = {2, 0, 3}, .p = 1e4},

@@ -1,6 +1,6 @@
 /* The results for people and for programs. */
 #include "app/stress/stress.h"
-#include "geometry/json_file.h"
+#include "app/json_table.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -50,13 +50,8 @@ void stress_print(const stress_case *const *c, const stress_result *r, int count
         fprintf(out, "* %s: %s (%s)%s%s\n", c[i]->name, r[i].wrong, r[i].text, c[i]->known ? "; known: " : "",
                 c[i]->known ? c[i]->known : "");
     }
-    fprintf(out, "%s%d cases, %d not as expected, %d known limits\n", wrong + known ? "\n" : "", count, wrong,
-            known);
-}
-
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
+    fprintf(out, "%s%d cases, %d not as expected, %d known limit%s\n", wrong + known ? "\n" : "", count, wrong,
+            known, known == 1 ? "" : "s");
 }
 
 static json_t *as_json(const stress_case *c, const stress_result *r)
@@ -65,10 +60,7 @@ static json_t *as_json(const stress_case *c, const stress_result *r)
         json_pack("{ss ss ss ss ss ss}", "case", c->name, "what", c->what, "expected", want_text[c->want],
                   "outcome", kind_text[r->kind], "text", r->text, "wrong", r->wrong);
     json_object_set_new(o, "known_limit", json_string(c->known ? c->known : ""));
-    const struct {
-        const char *name;
-        double value;
-    } numbers[] = {{"nodes", r->nodes},
+    const json_column numbers[] = {{"nodes", r->nodes},
                    {"tets", r->tets},
                    {"unknowns", (double)r->unknowns},
                    {"iterations", r->iterations},
@@ -87,34 +79,8 @@ static json_t *as_json(const stress_case *c, const stress_result *r)
                    {"seconds", r->seconds},
                    {"cpu_seconds", r->cpu_s},
                    {"memory_MB", r->memory_mb}};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        json_object_set_new(o, numbers[i].name, number(numbers[i].value));
+    json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     return o;
-}
-
-/* One line of CSV from the object, or its keys. */
-static void print_csv(const json_t *o, bool keys, FILE *out)
-{
-    const char *key, *comma = "";
-    json_t *value;
-    json_object_foreach((json_t *)o, key, value)
-    {
-        fputs(comma, out);
-        comma = ",";
-        if (keys)
-            fputs(key, out);
-        else if (json_is_real(value))
-            fprintf(out, "%.10g", json_real_value(value));
-        else if (json_is_string(value)) {
-            fputc('"', out);
-            for (const char *t = json_string_value(value); *t; t++) {
-                if (*t == '"') fputc('"', out);
-                fputc(*t, out);
-            }
-            fputc('"', out);
-        }
-    }
-    fputc('\n', out);
 }
 
 static bool open_in(const char *folder, const char *name, whole_file *out, err *e)
@@ -145,14 +111,12 @@ bool stress_write(const stress_case *const *c, const stress_result *r, int count
     if (!open_in(folder, "stress.md", &f, e)) return false;
     stress_print(c, r, count, f.stream);
     if (!whole_file_close(&f, e) || !open_in(folder, "stress.csv", &f, e)) return false;
-    for (int i = 0; i < count; i++) {
-        json_t *o = as_json(c[i], &r[i]);
-        if (i == 0) print_csv(o, true, f.stream);
-        print_csv(o, false, f.stream);
-        json_decref(o);
-    }
-    if (!whole_file_close(&f, e) || !open_in(folder, "manifest.json", &f, e)) return false;
     json_t *all = stress_json(c, r, count);
+    json_table_csv(json_object_get(all, "cases"), f.stream);
+    if (!whole_file_close(&f, e) || !open_in(folder, "manifest.json", &f, e)) {
+        json_decref(all);
+        return false;
+    }
     json_object_set_new(all, "schema", json_string("gnathos.stress.1"));
     json_dumpf(all, f.stream, JSON_INDENT(1) | JSON_REAL_PRECISION(12));
     fputc('\n', f.stream);

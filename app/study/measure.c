@@ -91,7 +91,13 @@ void study_table_make(study_table *t)
     const study_run *reference = &t->run[study_reference];
     t->error = NEW_ARRAY(study_error, t->count);
     t->best = NEW_ARRAY(bool, t->count);
-    for (int i = 0; i < t->count; i++) t->error[i] = study_compare(&t->run[i], reference);
+    t->change = NEW_ARRAY(study_error, t->count);
+    for (int i = 0; i < t->count; i++) {
+        const study_run none = {0};
+        bool own = study_rungs[i].coarsening == 1 && study_rungs[i].refined == 0;
+        t->error[i] = study_compare(&t->run[i], reference);
+        t->change[i] = study_compare(own ? &t->run[i] : &none, &t->run[study_default]);
+    }
     for (int i = 0; i < t->count; i++) {
         t->best[i] = counts(t, i);
         for (int k = 0; t->best[i] && k < t->count; k++)
@@ -113,15 +119,16 @@ void study_table_free(study_table *t)
     for (int i = 0; i < t->count; i++) study_run_free(&t->run[i]);
     free(t->run);
     free(t->error);
+    free(t->change);
     free(t->best);
     *t = (study_table){0};
 }
 
-int study_soonest(const study_table *t, double limit_mm, bool p95)
+int study_soonest(const study_table *t, double limit_mm, bool p95, double own_mm)
 {
     int best = -1;
     for (int i = 0; i < t->count; i++) {
-        double error = (p95 ? t->error[i].p95_mm : t->error[i].mean_mm) + t->reference_error_mm;
+        double error = (p95 ? t->error[i].p95_mm : t->error[i].mean_mm) + own_mm;
         if (!counts(t, i) || !(error <= limit_mm)) continue;
         if (best < 0 || t->run[i].result.wall_s < t->run[best].result.wall_s) best = i;
     }

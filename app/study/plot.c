@@ -1,41 +1,22 @@
 /* Two pictures: error over time with the front of the best, error over the size of the tets with its slopes.
  */
-#include "app/study/study.h"
-#include "geometry/mem.h"
+#include "app/study/spots.h"
 #include <math.h>
 #include <plplot/plplot.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { INK = 1, FIRST_SERIES = 2, SERIES = 4, FRONT = 6 };
+enum { INK = 1, FIRST_SERIES = 2, FRONT = FIRST_SERIES + SERIES };
 static const int shade[][3] = {{255, 255, 255}, {30, 30, 30},   {31, 119, 180}, {214, 96, 20},
-                               {44, 140, 60},   {130, 90, 170}, {200, 30, 40}};
+                               {44, 140, 60},   {130, 90, 170}, {31, 119, 180}, {200, 30, 40}};
 static const struct {
     const char *text, *mark;
 } series[SERIES] = {{"meshes, plain tets", "●"},
-                    {"averaged volume changes", "▲"},
-                    {"tolerances, the case's mesh", "■"},
-                    {"load steps, the case's mesh", "◆"}};
-
-/* -1: not in the pictures. */
-static int series_of(const study_table *t, int i)
-{
-    const study_rung *r = t->run[i].rung;
-    if (!(t->error[i].mean_mm > 0) || r->contact) return -1;
-    switch (r->group) {
-    case GROUP_MESH:
-        return 0;
-    case GROUP_ELEMENT:
-        return 1;
-    case GROUP_TOLERANCE:
-        return 2;
-    case GROUP_SCENE:
-        return 3;
-    default:
-        return -1;
-    }
-}
+                    {"averaged volumes", "▲"},
+                    {"tolerances", "■"},
+                    {"loads, parts left out", "◆"},
+                    {"one mesh halved: off", "○"}};
 
 static void set_colours(void)
 {
@@ -49,14 +30,14 @@ typedef struct picture {
     double x0, x1, y0, y1; /* log10 */
 } picture;
 
-static picture frame_of(const double *x, const double *y, int count)
+static picture frame_of(const spot *s, int count)
 {
     picture p = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
     for (int i = 0; i < count; i++) {
-        p.x0 = fmin(p.x0, log10(x[i]));
-        p.x1 = fmax(p.x1, log10(x[i]));
-        p.y0 = fmin(p.y0, log10(y[i]));
-        p.y1 = fmax(p.y1, log10(y[i]));
+        p.x0 = fmin(p.x0, log10(s[i].x));
+        p.x1 = fmax(p.x1, log10(s[i].x));
+        p.y0 = fmin(p.y0, log10(s[i].y));
+        p.y1 = fmax(p.y1, log10(s[i].y));
     }
     double wide = fmax(p.x1 - p.x0, 0.3), high = fmax(p.y1 - p.y0, 0.3);
     return (picture){p.x0 - 0.1 * wide, p.x1 + 0.18 * wide, p.y0 - 0.16 * high, p.y1 + 0.12 * high};
@@ -73,7 +54,7 @@ static void axis(const picture *p, bool across)
 {
     static const double steps[3][8] = {{1, 1.2, 1.5, 2, 3, 4, 5, 7}, {1, 2, 5}, {1}};
     double low = across ? p->x0 : p->y0, high = across ? p->x1 : p->y1;
-    int kind = high - low < 0.9 ? 0 : high - low < 2.5 ? 1 : 2;
+    int kind = high - low < 0.9 ? 0 : high - low < 4 ? 1 : 2;
     plschr(0, 0.8);
     for (int decade = (int)floor(low); decade <= (int)ceil(high); decade++)
         for (int k = 0; k < 8 && steps[kind][k] > 0; k++) {
@@ -102,7 +83,7 @@ static void begin(const char *device, const char *path, const picture *p, const 
     plinit();
     plfont(1);
     pladv(0);
-    plvpor(0.1, 0.76, 0.12, 0.89);
+    plvpor(0.1, 0.77, 0.12, 0.89);
     plwind(p->x0, p->x1, p->y0, p->y1);
     plwidth(1);
     plcol0(INK);
@@ -117,45 +98,83 @@ static void begin(const char *device, const char *path, const picture *p, const 
     plmtex("t", 0.9, 0.5, 0.5, subtitle);
 }
 
-/* Beside the frame. */
-static void legend(const bool used[SERIES], const char *more)
+/* One line of the legend, at height y of the frame. */
+static void entry(double y, int colour, const char *sign, const char *text)
 {
+    plcol0(colour);
+    plmtex("rv", 1.2, y, 0.5, sign);
+    plcol0(INK);
+    plmtex("rv", 2.2, y, 0, text);
+}
+
+/* Beside the frame. */
+static void legend(const bool used[SERIES], bool over_time, bool reference)
+{
+    const double line_high = 0.045;
     double y = 0.97;
     plschr(0, 0.72);
     for (int s = 0; s < SERIES; s++) {
         if (!used[s]) continue;
-        plcol0(FIRST_SERIES + s);
-        plmtex("rv", 1.2, y, 0.5, series[s].mark);
-        plcol0(INK);
-        plmtex("rv", 2.2, y, 0, series[s].text);
-        y -= 0.045;
+        entry(y, FIRST_SERIES + s, series[s].mark, series[s].text);
+        y -= line_high;
     }
-    plmtex("rv", 1.2, 0.06, 0, "x2: edges twice as long");
+    if (used[HALVED]) {
+        entry(y, INK, "", "its own finest");
+        y -= line_high;
+    }
+    if (over_time) {
+        entry(y, FRONT, "—", "the best (Pareto front)");
+        y -= line_high;
+    }
+    if (reference) {
+        entry(y, FRONT, "- -", "what the finest mesh");
+        entry(y - line_high, INK, "", "is itself off, about");
+    }
     plmtex("rv", 1.2, 0.02, 0, "/2: every edge halved");
-    if (!more) return;
-    plcol0(FRONT);
-    plmtex("rv", 1.2, y, 0.5, "—");
-    plcol0(INK);
-    plmtex("rv", 2.2, y, 0, more);
+    plmtex("rv", 1.2, 0.02 + line_high, 0, "x2: edges twice as long");
+    if (used[TOLERANCES]) plmtex("rv", 1.2, 0.02 + 2 * line_high, 0, "1e-04: of the first force");
 }
 
-static void mark(const study_table *t, const int *which, const double *x, const double *y, int count,
-                 const picture *p)
+/* In parts of the frame. */
+typedef struct box {
+    double x0, x1, y0, y1;
+} box;
+
+static bool meet(const box *a, const box *b)
 {
+    return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
+}
+
+/* Marks, and beside each its name in the first of six places that is free; none where none is. */
+static void mark(const spot *s, int count, const picture *p)
+{
+    /* right, up, justified */
+    static const double at[6][3] = {{0.012, 0.03, 0},   {0.012, -0.03, 0}, {-0.012, 0.03, 1},
+                                    {-0.012, -0.03, 1}, {0.016, 0, 0},     {-0.016, 0, 1}};
+    box taken[2 * SPOTS_MAX];
+    int boxes = 0;
     for (int i = 0; i < count; i++) {
-        int s = series_of(t, which[i]);
-        plcol0(FIRST_SERIES + s);
-        plschr(0, 1.1);
-        plptex(log10(x[i]), log10(y[i]), 1, 0, 0.5, series[s].mark);
-        if (s > 1) continue;
-        const study_rung *r = t->run[which[i]].rung;
-        char name[32];
-        snprintf(name, sizeof name, r->refined ? "x%g /%d" : "x%g", r->coarsening, 1 << r->refined);
-        bool right = log10(x[i]) < (p->x0 + p->x1) / 2;
-        plcol0(INK);
-        plschr(0, 0.62);
-        plptex(log10(x[i]) + (right ? 0.012 : -0.012) * (p->x1 - p->x0),
-               log10(y[i]) + (i % 2 ? -0.03 : 0.025) * (p->y1 - p->y0), 1, 0, right ? 0 : 1, name);
+        double u = (log10(s[i].x) - p->x0) / (p->x1 - p->x0), v = (log10(s[i].y) - p->y0) / (p->y1 - p->y0);
+        taken[boxes++] = (box){u - 0.01, u + 0.01, v - 0.013, v + 0.013};
+        plcol0(FIRST_SERIES + s[i].series);
+        plschr(0, 1.0);
+        plptex(log10(s[i].x), log10(s[i].y), 1, 0, 0.5, series[s[i].series].mark);
+    }
+    plcol0(INK);
+    plschr(0, 0.62);
+    for (int i = 0; i < count; i++) {
+        double u = (log10(s[i].x) - p->x0) / (p->x1 - p->x0), v = (log10(s[i].y) - p->y0) / (p->y1 - p->y0);
+        double wide = 0.0105 * (double)strlen(s[i].label);
+        for (int k = 0; s[i].label[0] && k < 6; k++) {
+            double x = u + at[k][0], y = v + at[k][1];
+            box b = {x - at[k][2] * wide, x + (1 - at[k][2]) * wide, y - 0.013, y + 0.013};
+            bool free_place = b.x0 > 0 && b.x1 < 1;
+            for (int n = 0; free_place && n < boxes; n++) free_place = !meet(&b, &taken[n]);
+            if (!free_place) continue;
+            taken[boxes++] = b;
+            plptex(p->x0 + x * (p->x1 - p->x0), p->y0 + y * (p->y1 - p->y0), 1, 0, at[k][2], s[i].label);
+            break;
+        }
     }
 }
 
@@ -166,14 +185,14 @@ static int by_x(const void *a, const void *b)
 }
 
 /* The front as steps: from each best run on, no slower one is needed. */
-static void draw_front(const study_table *t, const int *which, const double *x, const double *y, int count)
+static void draw_front(const study_table *t, const spot *s, int count)
 {
-    double(*front)[2] = mem_alloc((size_t)count, sizeof *front);
+    double front[SPOTS_MAX][2];
     int n = 0;
     for (int i = 0; i < count; i++) {
-        if (!t->best[which[i]]) continue;
-        front[n][0] = log10(x[i]);
-        front[n++][1] = log10(y[i]);
+        if (!t->best[s[i].run]) continue;
+        front[n][0] = log10(s[i].x);
+        front[n++][1] = log10(s[i].y);
     }
     qsort(front, (size_t)n, sizeof *front, by_x);
     plcol0(FRONT);
@@ -183,23 +202,20 @@ static void draw_front(const study_table *t, const int *which, const double *x, 
         line(front[i][0], front[i - 1][1], front[i][0], front[i][1]);
     }
     plwidth(1);
-    free(front);
 }
 
 /* Lines through the meshes made anew, and dashed from each to its halves. */
-static void draw_families(const study_table *t)
+static void draw_families(const study_table *t, const spot *s, int count)
 {
-    plcol0(FIRST_SERIES);
-    for (int i = 0; i < t->count; i++)
-        for (int k = 0; k < t->count; k++) {
-            const study_rung *a = t->run[i].rung, *b = t->run[k].rung;
-            if (series_of(t, i) != 0 || series_of(t, k) != 0) continue;
-            bool anew = !a->refined && !b->refined && k == i + 1,
-                 halves = a->coarsening == b->coarsening && b->refined == a->refined + 1;
-            if (!anew && !halves) continue;
-            pllsty(anew ? 1 : 2);
-            line(log10(t->run[i].result.size_mm), log10(t->error[i].mean_mm), log10(t->run[k].result.size_mm),
-                 log10(t->error[k].mean_mm));
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < count; k++) {
+            const study_rung *a = t->run[s[i].run].rung, *b = t->run[s[k].run].rung;
+            bool halves =
+                s[i].series == HALVED && a->coarsening == b->coarsening && b->refined == a->refined + 1;
+            if (s[i].series != s[k].series || !(halves || (s[i].series < HALVED && k == i + 1))) continue;
+            plcol0(FIRST_SERIES + s[i].series);
+            pllsty(halves ? 2 : 1);
+            line(log10(s[i].x), log10(s[i].y), log10(s[k].x), log10(s[k].y));
         }
     pllsty(1);
 }
@@ -224,62 +240,48 @@ static void describe_orders(const study_table *t, char *out, size_t size)
     char text[3][24];
     for (int k = 0; k < 3; k++)
         snprintf(text[k], sizeof text[k], isnan(value[k]) ? "not known" : "%.2f", value[k]);
-    snprintf(out, size, "slope of meshes made anew: plain %s, averaged %s; order of one mesh halved twice %s",
+    snprintf(out, size, "slope of meshes made anew: plain %s, averaged %s; order of x3 halved twice: %s",
              text[0], text[1], text[2]);
 }
 
-static void draw_reference(const study_table *t, const picture *p)
+/* False: it lies outside of the frame. */
+static bool draw_reference(const study_table *t, const picture *p)
 {
     double y = log10(t->reference_error_mm);
-    if (!(y > p->y0 && y < p->y1)) return;
+    if (!(y > p->y0 && y < p->y1)) return false;
     plcol0(FRONT);
     pllsty(2);
     line(p->x0, y, p->x1, y);
     pllsty(1);
-    plschr(0, 0.62);
-    plptex(p->x0 + 0.02 * (p->x1 - p->x0), y - 0.02 * (p->y1 - p->y0), 1, 0, 0,
-           isnan(t->order) ? "about what the finest mesh itself is off"
-                           : "what the finest mesh itself is off, by Richardson");
+    return true;
 }
 
 static bool draw(const study_table *t, bool over_time, const char *device, const char *path)
 {
-    int *which = NEW_ARRAY(int, t->count), count = 0;
-    double *x = NEW_ARRAY(double, t->count), *y = NEW_ARRAY(double, t->count);
+    spot s[SPOTS_MAX];
     bool used[SERIES] = {0};
-    for (int i = 0; i < t->count; i++) {
-        int s = series_of(t, i);
-        if (s < 0 || (!over_time && s > 1)) continue;
-        used[s] = true;
-        which[count] = i;
-        x[count] = over_time ? t->run[i].result.wall_s : t->run[i].result.size_mm;
-        y[count++] = t->error[i].mean_mm;
+    int count = spots_collect(t, over_time, s);
+    if (count == 0) return false;
+    for (int i = 0; i < count; i++) used[s[i].series] = true;
+    picture p = frame_of(s, count);
+    char title[2 * FIELD_TEXT_SIZE],
+        subtitle[160] = "distances to the finest mesh, over the skin that moves by more than 0.1 mm";
+    snprintf(title, sizeof title, "%s: %s", t->task->patient->name, t->plan_name);
+    if (!over_time) describe_orders(t, subtitle, sizeof subtitle);
+    begin(device, path, &p,
+          over_time ? "wall time of the solve, s" : "mean size of a tet, mm (cube root of its volume)",
+          "mean skin error, mm", title, subtitle);
+    bool reference = draw_reference(t, &p);
+    if (over_time) {
+        draw_front(t, s, count);
+    } else {
+        draw_families(t, s, count);
+        draw_slopes(&p);
     }
-    bool any = count > 0;
-    if (any) {
-        picture p = frame_of(x, y, count);
-        char title[2 * FIELD_TEXT_SIZE],
-            subtitle[160] = "distances to the finest mesh, over the skin that moves by more than 0.1 mm";
-        snprintf(title, sizeof title, "%s: %s", t->task->patient->name, t->plan_name);
-        if (!over_time) describe_orders(t, subtitle, sizeof subtitle);
-        begin(device, path, &p,
-              over_time ? "wall time of the solve, s" : "mean size of a tet, mm (cube root of its volume)",
-              "mean skin error, mm", title, subtitle);
-        draw_reference(t, &p);
-        if (over_time) {
-            draw_front(t, which, x, y, count);
-        } else {
-            draw_families(t);
-            draw_slopes(&p);
-        }
-        mark(t, which, x, y, count, &p);
-        legend(used, over_time ? "the best (Pareto front)" : NULL);
-        plend();
-    }
-    free(which);
-    free(x);
-    free(y);
-    return any;
+    mark(s, count, &p);
+    legend(used, over_time, reference);
+    plend();
+    return true;
 }
 
 bool study_plot(const study_table *t, const char *folder, err *e)

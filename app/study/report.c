@@ -1,5 +1,6 @@
 /* The study as a table: Markdown, CSV, JSON. */
 #include "app/study/study.h"
+#include "app/json_table.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -12,50 +13,62 @@ static const char *const group_text[GROUP_COUNT] = {"mesh",     "element", "tole
 
 static void print_soonest(const study_table *t, double most_mm, bool p95, FILE *out)
 {
-    int i = study_soonest(t, most_mm, p95);
-    const char *measure = p95 ? "95 % of the moved skin" : "the mean of the moved skin";
+    int i = study_soonest(t, most_mm, p95, t->reference_error_mm), near = study_soonest(t, most_mm, p95, 0);
+    fprintf(out, "* %.2f mm for %s: ", most_mm,
+            p95 ? "95 % of the moved skin" : "the mean of the moved skin");
     if (i >= 0)
-        fprintf(out, "* %.2f mm for %s, the reference's own error included: **%s**, %.2f s.\n", most_mm,
-                measure, t->run[i].rung->name, t->run[i].result.wall_s);
+        fprintf(out, "**%s**, %.2f s", t->run[i].rung->name, t->run[i].result.wall_s);
     else
-        fprintf(out, "* %.2f mm for %s, the reference's own error included: **no setting reaches it**.\n",
-                most_mm, measure);
+        fprintf(out, "no setting is shown to reach it");
+    if (near >= 0 && near != i)
+        fprintf(out, "%s **%s**, %.2f s, comes so near the reference, whatever that is off itself",
+                i >= 0 ? ";" : ", but", t->run[near].rung->name, t->run[near].result.wall_s);
+    fprintf(out, ".\n");
 }
 
 static void print_orders(const study_table *t, FILE *out)
 {
     const study_error *own = &t->error[study_default];
+    const char *reference = study_rungs[study_reference].name, *coarsest = study_rungs[study_family[0]].name;
     fprintf(out,
-            "Errors are distances of the predicted skin to that of \"%s\", over the %d skin vertices that "
-            "move by more "
-            "than 0.1 mm there. ",
-            study_rungs[study_reference].name, own->vertices);
-    if (isnan(t->order))
-        fprintf(out,
-                "\"%s\", halved and halved twice give no order, so the reference's own error is only known "
-                "to be about "
-                "its distance to the mesh that was halved, %.3f mm in the mean.\n",
-                study_rungs[study_family[0]].name, t->reference_error_mm);
-    else
-        fprintf(
-            out,
-            "\"%s\", halved and halved twice converge with order %.2f (in the mean); with it Richardson's "
-            "extrapolation of \"%s\" and its half leaves the reference itself off by %.3f mm in the mean.\n",
-            study_rungs[study_family[0]].name, t->order, study_rungs[study_default].name,
-            t->reference_error_mm);
-    fprintf(out,
-            "Slope of mean error over tet size, meshes made anew: plain tets %.2f, averaged volume changes %.2f. Meshing anew "
-            "also moves "
-            "the surface and the attachments; halved tets show the discretisation alone.\n",
-            t->plain_slope, t->average_slope);
+            "One prediction, computed in %d ways and compared with the finest of them, the reference \"%s\": "
+            "the case's "
+            "own mesh with every edge halved, eight times the tets. An error is the distance between the two "
+            "skins at "
+            "the same vertex, over the %d vertices that move by more than 0.1 mm. \"edges x 2\" is a mesh "
+            "made anew with "
+            "edges twice as long as the case's: surface and attachments change with it. \"halved\" splits "
+            "each tet in "
+            "eight and keeps them: what it changes is the discretisation alone.\n\n",
+            t->count, reference, own->vertices);
     fprintf(out, "The case's own mesh is %.3f mm off in the mean, %.3f mm at 95 %%, %.2f mm at most. ",
             own->mean_mm, own->p95_mm, own->max_mm);
     study_error anew = study_compare(&t->run[study_default + 1], &t->run[study_default]);
-    fprintf(
-        out,
-        "Meshed anew with \"%s\", surface and attachments too, the skin differs from that of the case's own "
-        "mesh by %.3f mm in the mean and %.3f mm at 95 %%: no halving of tets shows this part.\n\n",
-        study_rungs[study_default + 1].name, anew.mean_mm, anew.p95_mm);
+    fprintf(out,
+            "Meshed anew with \"%s\", the skin differs from that of the case's own mesh by %.3f mm in the "
+            "mean and "
+            "%.3f mm at 95 %%, which no halving shows.\n\n",
+            study_rungs[study_default + 1].name, anew.mean_mm, anew.p95_mm);
+    if (isnan(t->order))
+        fprintf(out,
+                "How good is the reference? \"%s\", halved and halved twice give no order of convergence, so "
+                "it is only "
+                "known to be off by about its distance to the mesh that was halved, %.3f mm in the mean. ",
+                coarsest, t->reference_error_mm);
+    else
+        fprintf(
+            out,
+            "How good is the reference? \"%s\", halved and halved twice converge with order %.2f (in the "
+            "mean); if "
+            "the case's own mesh and its half do so too, the reference is itself off by %.3f mm in the mean "
+            "(Richardson's extrapolation%s). ",
+            coarsest, t->order, t->reference_error_mm,
+            t->order < 0.8 ? "; an order so far below 1 makes this a cautious bound" : "");
+    fprintf(out,
+            "Over meshes made anew the mean error falls with size to the power %.2f, with averaged volumes "
+            "%.2f.\n\n",
+            t->plain_slope, t->average_slope);
+    fprintf(out, "Which setting reaches an error soonest, the reference's own counted in:\n\n");
 }
 
 static void print_tubes(const study_table *t, FILE *out)
@@ -78,42 +91,58 @@ static void print_tubes(const study_table *t, FILE *out)
     }
 }
 
+static bool is_other_question(int i)
+{
+    return study_rungs[i].group == GROUP_MATERIAL || study_rungs[i].contact;
+}
+
 void study_print(const study_table *t, FILE *out)
 {
     fprintf(out, "# Error against run time: %s, %s\n\n", t->task->patient->name, t->plan_name);
     print_orders(t, out);
     for (int k = 0; k < 4; k++) print_soonest(t, k % 2 ? 0.02 : 0.1, k >= 2, out);
-    fprintf(out,
-            "\nWall and processor time are of the solve alone (ordering included) on %d cores; meshing is "
-            "once per mesh. "
-            "Rows of other materials, and of contact, differ by their question and not by an error.\n\n",
-            t->cores);
-    fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (contact) | factors | wall s | CPU s "
+    fprintf(
+        out,
+        "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. \"changes\" is the "
+        "distance to "
+        "the skin of the case's own settings, for runs on the same mesh: what a tolerance, a thread, a load "
+        "step or tissue left out does to the answer. Rows of other materials, of another Poisson ratio and "
+        "of "
+        "contact answer another question: only that column says something of them. \"front\" marks what "
+        "nothing "
+        "beats in both time and mean error. \"averaged\" is the element with averaged volumes, which locks "
+        "less%s.\n\n",
+        t->cores,
+        STUDY_AVERAGE_IS_PLAIN ? "; it has a single material here, so the nose's septum is soft in it" : "");
+    fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (of them with contact) | factors | "
+                 "wall s | CPU s "
                  "| order/assemble/factor/solve s "
-                 "| peak MB | mean mm | 95 %% mm | max mm | front |\n");
-    fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+                 "| peak MB | mean error mm | 95 %% mm | max mm | changes by mm, mean (max) | front |\n");
+    fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < t->count; i++) {
         const study_result *r = &t->run[i].result;
         fprintf(out, "| %s | %s | %s | ", group_text[study_rungs[i].group], study_rungs[i].name, r->text);
         if (!r->solved) {
-            fprintf(out, "| | | | | | | %.0f | | | | |\n", r->peak_mb);
+            fprintf(out, "| | | | | | | %.0f | | | | | |\n", r->peak_mb);
             continue;
         }
         fprintf(out, "%d | %lld | %d (%d) | %d | %.2f | %.2f | %.2f/%.2f/%.2f/%.2f | %.0f | ", r->nodes,
                 (long long)r->unknowns, r->iterations, r->contact_iterations, r->factorisations, r->wall_s,
                 r->cpu_s, r->prepare_s, r->assemble_s, r->factor_s, r->solve_s, r->peak_mb);
+        const study_error *error = &t->error[i], *change = &t->change[i];
         if (i == study_reference)
-            fprintf(out, "reference | | | |\n");
+            fprintf(out, "reference | | | ");
+        else if (is_other_question(i))
+            fprintf(out, "| | | ");
         else
-            fprintf(out, "%.4f | %.4f | %.3f | %s |\n", t->error[i].mean_mm, t->error[i].p95_mm,
-                    t->error[i].max_mm, t->best[i] ? "yes" : "");
+            fprintf(out, "%.3f | %.3f | %.2f | ", error->mean_mm, error->p95_mm, error->max_mm);
+        if (isnan(change->mean_mm) || i == study_default)
+            fprintf(out, "| ");
+        else
+            fprintf(out, "%.2g (%.2g) | ", change->mean_mm, change->max_mm);
+        fprintf(out, "%s |\n", t->best[i] ? "yes" : "");
     }
     print_tubes(t, out);
-}
-
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
 }
 
 static json_t *row_json(const study_table *t, int i)
@@ -121,35 +150,33 @@ static json_t *row_json(const study_table *t, int i)
     const study_result *r = &t->run[i].result;
     json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting",
                           study_rungs[i].name, "outcome", r->text, "solved", r->solved, "front", t->best[i]);
-    const struct {
-        const char *name;
-        double value;
-    } numbers[] = {{"nodes", r->nodes},
-                   {"tets", r->tets},
-                   {"unknowns", (double)r->unknowns},
-                   {"size_mm", r->size_mm},
-                   {"iterations", r->iterations},
-                   {"free_iterations", r->free_iterations},
-                   {"contact_iterations", r->contact_iterations},
-                   {"factorisations", r->factorisations},
-                   {"loads", r->loads},
-                   {"wall_s", r->wall_s},
-                   {"cpu_s", r->cpu_s},
-                   {"prepare_s", r->prepare_s},
-                   {"assemble_s", r->assemble_s},
-                   {"factor_s", r->factor_s},
-                   {"solve_s", r->solve_s},
-                   {"meshing_s", r->meshing_s > 0 ? r->meshing_s : (double)NAN},
-                   {"peak_MB", r->peak_mb},
-                   {"residual_mN", r->residual_mn},
-                   {"initial_residual_mN", r->initial_mn},
-                   {"min_J", r->min_j},
-                   {"inverted_tets", r->inverted},
-                   {"mean_error_mm", t->error[i].mean_mm},
-                   {"p95_error_mm", t->error[i].p95_mm},
-                   {"max_error_mm", t->error[i].max_mm}};
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        json_object_set_new(o, numbers[k].name, number(numbers[k].value));
+    const json_column numbers[] = {{"nodes", r->nodes},
+                                   {"tets", r->tets},
+                                   {"unknowns", (double)r->unknowns},
+                                   {"size_mm", r->size_mm},
+                                   {"iterations", r->iterations},
+                                   {"free_iterations", r->free_iterations},
+                                   {"contact_iterations", r->contact_iterations},
+                                   {"factorisations", r->factorisations},
+                                   {"loads", r->loads},
+                                   {"wall_s", r->wall_s},
+                                   {"cpu_s", r->cpu_s},
+                                   {"prepare_s", r->prepare_s},
+                                   {"assemble_s", r->assemble_s},
+                                   {"factor_s", r->factor_s},
+                                   {"solve_s", r->solve_s},
+                                   {"meshing_s", r->meshing_s > 0 ? r->meshing_s : (double)NAN},
+                                   {"peak_MB", r->peak_mb},
+                                   {"residual_mN", r->residual_mn},
+                                   {"initial_residual_mN", r->initial_mn},
+                                   {"min_J", r->min_j},
+                                   {"inverted_tets", r->inverted},
+                                   {"mean_error_mm", t->error[i].mean_mm},
+                                   {"p95_error_mm", t->error[i].p95_mm},
+                                   {"max_error_mm", t->error[i].max_mm},
+                                   {"mean_change_mm", t->change[i].mean_mm},
+                                   {"max_change_mm", t->change[i].max_mm}};
+    json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     return o;
 }
 
@@ -164,39 +191,16 @@ json_t *study_json(const study_table *t)
         const study_tube *row = &t->tube[i];
         json_array_append_new(tubes,
                               json_pack("{si sb so sI si so so}", "cells", row->cells, "averaged",
-                                        row->average, "poisson", number(row->poisson), "unknowns",
+                                        row->average, "poisson", json_number(row->poisson), "unknowns",
                                         (json_int_t)row->unknowns, "iterations", row->iterations, "wall_s",
-                                        number(row->wall_s), "error_mm", number(row->error_mm)));
+                                        json_number(row->wall_s), "error_mm", json_number(row->error_mm)));
     }
     json_object_set_new(o, "tubes", tubes);
-    json_object_set_new(o, "reference_error_mm", number(t->reference_error_mm));
-    json_object_set_new(o, "order", number(t->order));
-    json_object_set_new(o, "plain_slope", number(t->plain_slope));
-    json_object_set_new(o, "average_slope", number(t->average_slope));
+    json_object_set_new(o, "reference_error_mm", json_number(t->reference_error_mm));
+    json_object_set_new(o, "order", json_number(t->order));
+    json_object_set_new(o, "plain_slope", json_number(t->plain_slope));
+    json_object_set_new(o, "average_slope", json_number(t->average_slope));
     return o;
-}
-
-static void print_csv(const study_table *t, FILE *out)
-{
-    for (int i = -1; i < t->count; i++) {
-        json_t *row = row_json(t, i < 0 ? 0 : i), *value;
-        const char *key, *comma = "";
-        json_object_foreach(row, key, value)
-        {
-            fputs(comma, out);
-            comma = ",";
-            if (i < 0)
-                fputs(key, out);
-            else if (json_is_string(value))
-                fprintf(out, "\"%s\"", json_string_value(value));
-            else if (json_is_boolean(value))
-                fputs(json_is_true(value) ? "1" : "0", out);
-            else if (json_is_real(value))
-                fprintf(out, "%.9g", json_real_value(value));
-        }
-        fputc('\n', out);
-        json_decref(row);
-    }
 }
 
 bool study_write(const study_table *t, const char *folder, err *e)
@@ -207,10 +211,13 @@ bool study_write(const study_table *t, const char *folder, err *e)
         whole_file f;
         snprintf(path, sizeof path, "%s/%s", folder, names[k]);
         if (!whole_file_open(path, &f, e)) return false;
-        if (k)
-            print_csv(t, f.stream);
-        else
+        if (k) {
+            json_t *all = study_json(t);
+            json_table_csv(json_object_get(all, "runs"), f.stream);
+            json_decref(all);
+        } else {
             study_print(t, f.stream);
+        }
         if (!whole_file_close(&f, e)) return false;
     }
     return study_plot(t, folder, e);

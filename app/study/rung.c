@@ -1,5 +1,5 @@
 /* One rung, solved in a child and kept. */
-#include "app/study/study.h"
+#include "app/study/measures.h"
 #include "app/child.h"
 #include "app/pack_file.h"
 #include "app/plan_tissue.h"
@@ -81,7 +81,7 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
 {
     plan_tissue flesh;
     if (!plan_tissue_make(t->patient, p, t->motion, r->contact == CONTACT_LIPS, &flesh, e)) return false;
-    if (r->average) { /* one material only */
+    if (r->average && STUDY_AVERAGE_IS_PLAIN) {
         flesh.mesh.region = p->tissue.mesh.region;
         flesh.material_count = 1;
     }
@@ -191,6 +191,7 @@ static void work(void *context, void *result)
         describe(&p, &q, &r);
     }
     if (own.ok && app_interrupted()) own.ok = err_set(&own.e, ERR_INTERRUPTED, "interrupted");
+    if (own.ok) study_add_lips(&p);
     own.ok = own.ok && keep(j, &p, &q, &r, &own.e);
     equilibrium_free(&q);
     prepared_free(&p);
@@ -236,7 +237,8 @@ static bool add_peak(const char *path, double peak_mb, err *e)
 
 bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool *fresh, err *e)
 {
-    enum { LIMIT_CPU_S = 3600 };
+    enum { LIMIT_CPU_S = 1200, LIMIT_CONTACT_S = 300 }; /* contact at times crawls, and only the curious wait */
+    int limit_s = rung->contact ? LIMIT_CONTACT_S : LIMIT_CPU_S;
     char path[FIELD_PATH_SIZE + 160];
     rung_path(t, rung, path, sizeof path);
     *out = (study_run){.rung = rung};
@@ -245,14 +247,14 @@ bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool
     job j = {t, rung, path};
     reply r = {0};
     child_use use;
-    child_end end = child_run(work, &j, &r, sizeof r, LIMIT_CPU_S, &use);
+    child_end end = child_run(work, &j, &r, sizeof r, limit_s, &use);
     *fresh = true;
     if (end == CHILD_INTERRUPTED || app_interrupted())
         return err_set(e, ERR_INTERRUPTED,
                        "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
     if (end != CHILD_DONE) { /* not kept: another time it may come through */
-        snprintf(out->result.text, sizeof out->result.text, "%s",
-                 end == CHILD_LATE ? "no end in an hour" : "crashed (out of memory?)");
+        snprintf(out->result.text, sizeof out->result.text,
+                 end == CHILD_LATE ? "no end in %d s of processor time" : "crashed (out of memory?)", limit_s);
         out->result.peak_mb = use.peak_mb;
         return true;
     }

@@ -17,6 +17,9 @@ typedef enum study_group {
     GROUP_COUNT
 } study_group;
 
+/* Averaged volumes are of one material: their rungs have no stiff septum. 0: of several. */
+enum { STUDY_AVERAGE_IS_PLAIN = 1 };
+
 typedef struct study_rung {
     const char *name;
     int group;
@@ -53,11 +56,6 @@ typedef struct study_result {
     double residual_mn, initial_mn, min_j;
     int32_t inverted;
 } study_result;
-
-typedef struct study_ratio {
-    char soft[16], hard[16];
-    double soft_mm[3], hard_mm[3]; /* forward, up, left */
-} study_ratio;
 
 /* One rung as the journal has it. */
 typedef struct study_run {
@@ -119,6 +117,7 @@ typedef struct study_table {
     int count;
     study_run *run;                   /* [count] as study_rungs */
     study_error *error;               /* [count] to the reference */
+    study_error *change;              /* [count] to the case's own settings, of runs on its own mesh; else NaN */
     bool *best;                       /* [count] on the Pareto front of the mean error over wall time */
     double order, reference_error_mm; /* Richardson: of the family; of the reference, in the mean */
     double plain_slope, average_slope;
@@ -127,9 +126,9 @@ typedef struct study_table {
 } study_table;
 void study_table_make(study_table *t); /* from task, run */
 void study_table_free(study_table *t);
-/* The fastest run whose error, the reference's own included, is at most so large; -1: none. p95: by the 95th
+/* The fastest run whose error and own_mm, of the reference, are at most so large; -1: none. p95: by the 95th
  * percentile, else by the mean. */
-int study_soonest(const study_table *t, double limit_mm, bool p95);
+int study_soonest(const study_table *t, double limit_mm, bool p95, double own_mm);
 
 /* study.md, study.csv, error_time.png/.svg, error_size.png/.svg in the folder. */
 bool study_write(const study_table *t, const char *folder, err *e) MUST_CHECK;
@@ -137,5 +136,6 @@ void study_print(const study_table *t, FILE *out);
 json_t *study_json(const study_table *t);
 bool study_plot(const study_table *t, const char *folder, err *e) MUST_CHECK;
 
-/* gnathos study --ratios: the standard moves. Prints the table and writes ratios.md and ratios.csv. */
-bool study_ratios(study_task *t, const prepared *p, command_options *common, err *e) MUST_CHECK;
+/* gnathos study --ratios: the standard moves. Prints the table (with --json as an object) and writes ratios.md and
+ * ratios.csv. p: of the case's own mesh; the lips' edges are added to its landmarks. */
+bool study_ratios(study_task *t, prepared *p, const command_options *common, err *e) MUST_CHECK;

@@ -3,6 +3,7 @@
 #include "geometry/vec.h"
 #include "sim/src/contact_state.h"
 #include <assert.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -126,6 +127,19 @@ double contact_energy(contact *c, const double *x, double *force)
         }
     }
     return sum;
+}
+
+double contact_force_noise(const contact *c, const double *x)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < c->node_count; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
+            const contact_link *link = &c->link[l];
+            double reach = vec_norm(x + 3 * (size_t)c->node[i]);
+            double off = 6 * stiffness_of(c, i, link) * link->cover * link->delta * 4 * DBL_EPSILON * reach;
+            sum += off * off;
+        }
+    return 4 * sqrt(sum);
 }
 
 /* Adds w m m^T for a pair of entries. */

@@ -79,7 +79,10 @@ double contact_bone_gap(const contact *c, const contact_link *link, const double
                         double *hess);
 /* Energy in uJ; adds to force[3*nodes] (may be NULL). */
 double contact_energy(contact *c, const double *x, double *force);
-/* Adds to a->edge_block; force[3*nodes] of the whole energy at x. exact: with the curvature of the distance (indefinite), else Gauss-Newton. */
+/* What rounding of x does to the forces of the last contact_energy, as a norm, mN. */
+double contact_force_noise(const contact *c, const double *x);
+/* Adds to a->edge_block; force[3*nodes] of the whole energy at x. exact: with the curvature of the distance
+ * (indefinite), else Gauss-Newton. */
 void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);

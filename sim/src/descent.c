@@ -1,5 +1,6 @@
 #include "sim/src/descent.h"
 #include "geometry/mem.h"
+#include "geometry/vec.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,22 +105,34 @@ static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, dou
     }
 }
 
-double descent_tolerance(const descent *d)
-{
-    return d->touching ? fmax(d->tolerance, d->rel_tol * contact_force(d->t->touch)) : d->tolerance;
-}
-
-static bool is_low(const descent *d)
-{
-    return d->residual <= descent_tolerance(d);
-}
-
 static bool renews_each_time(const contact *c, int iteration)
 {
     return c->setup.held || iteration <= c->setup.params.refresh_iterations;
 }
 
-/* Iterates until the residual is below d->tolerance. */
+/* The residual is low, and not because it is a bad measure. Where bones press on tissue that hangs on none of them, the
+ * contact forces are what it is measured by. */
+static bool is_solved(descent *d)
+{
+    const contact *c = d->touching ? d->t->touch : NULL;
+    if (c) d->tolerance = fmax(fmax(d->asked, contact_force_noise(c, d->x)), d->rel_tol * contact_force(c));
+    return d->residual <= d->tolerance && !(d->last_step > d->settled);
+}
+
+/* How far bones move from where the guide would carry them. */
+static double bones_move(const solver *t)
+{
+    double most = 0;
+    for (int32_t v = 0; v < t->b.node_count; v++) {
+        double carried[3];
+        if (t->attach->kind[v] == NODE_FREE) continue;
+        rigid_apply(&t->b.guide, t->mesh->xyz + 3 * (size_t)v, carried);
+        most = fmax(most, vec_distance(carried, t->b.origin + 3 * (size_t)v));
+    }
+    return most;
+}
+
+/* Iterates until is_solved. */
 static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *outcome, err *e)
 {
     bool ok = true, fresh = false;
@@ -127,12 +140,12 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
     d->energy_noise = assembly_energy_noise(&d->t->a, d->x);
     d->residual_at_factor = d->residual;
     for (int iteration = 1;; iteration++) {
-        bool low = is_low(d);
+        bool low = is_solved(d);
         if (d->touching && !fresh && (low || renews_each_time(d->t->touch, iteration))) {
             refresh(d);
             fresh = true;
         }
-        if (is_low(d) && d->touching && contact_stiffen(d->t->touch)) {
+        if (d->touching && is_solved(d) && contact_stiffen(d->t->touch)) {
             if (++stiffenings > d->t->touch->setup.params.max_stiffenings) {
                 *outcome = STOPPED_PENETRATION;
                 return true;
@@ -140,7 +153,7 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             point_measure(d);
             d->has_factor = false;
         }
-        if (is_low(d)) {
+        if (is_solved(d)) {
             *outcome = SOLVED;
             return true;
         }
@@ -160,8 +173,8 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             *outcome = STOPPED_SINGULAR;
             return true;
         }
-        if (!(step > 0)) {
-            *outcome = STOPPED_LINE_SEARCH;
+        if (!(step > 0)) { /* where the residual is low, the last step was as far as rounding lets it go */
+            *outcome = d->residual <= d->tolerance ? SOLVED : STOPPED_LINE_SEARCH;
             return true;
         }
         fresh = false;
@@ -177,12 +190,14 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
 static bool run_free(descent *d, double reference, bool *interrupted, err *e)
 {
     const contact_params *p = &d->t->touch->setup.params;
-    double tolerance = d->tolerance;
+    double tolerance = d->tolerance, settled = d->settled;
     solve_outcome outcome;
     d->tolerance = fmax(tolerance, p->free_rel_tol * reference);
+    d->settled = HUGE_VAL;
     bool ok = iterate(d, p->free_iterations, &d->out->contact.free_iterations, &outcome, e);
     *interrupted = ok && outcome == STOPPED_INTERRUPTED;
     d->tolerance = tolerance;
+    d->settled = settled;
     return ok;
 }
 
@@ -198,6 +213,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     d->inexact = use_gradients(t, d->params);
     d->residual_before = 0;
     d->cg_at_load = 0;
+    d->last_step = 0;
     d->cut = false;
     int cg = 0;
     double reference = start_reference(d), factor_s = 0;
@@ -205,7 +221,9 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     boundary_project(&t->b, x_start, d->z);
     boundary_place(&t->b, d->z, d->x);
     floor = fmax(floor, assembly_force_noise(&t->a, d->x));
-    d->tolerance = fmax(rel_tol * reference, floor);
+    d->tolerance = d->asked = fmax(rel_tol * reference, floor);
+    bool on_the_way = load < 1 || rel_tol * reference <= floor;
+    d->settled = on_the_way ? HUGE_VAL : sqrt(rel_tol) * bones_move(t);
     d->out->reference_mn = reference;
     bool touch = t->touch && !(t->touch->setup.held && load < 1); /* what keeps in touch meets bone at the end */
     if (touch) {

@@ -41,6 +41,9 @@ typedef struct descent {
     /* present iterate */
     double *z, *x, *force, *g;
     double energy, residual, tolerance, rel_tol, energy_noise;
+    double asked;     /* of the residual; tolerance is this, or what contact leaves */
+    double settled;   /* a last step below so much, mm, is small; see descent_run */
+    double last_step; /* longest move of an unknown in the last step, mm; 0: none yet */
     double residual_before; /* of the last iterate */
     /* trial point, direction, work */
     double *z_new, *x_new, *force_new, *g_new, *direction;
@@ -60,13 +63,11 @@ void descent_make(descent *d, solver *t, const solve_params *params, equilibrium
 void descent_free(descent *d);
 /* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they
  * were). free_first: with contact, phase A comes before. False: refused. *outcome is never SOLVED unless the
- * residual is below the tolerance; d->x is the last iterate. */
+ * residual is below the tolerance; d->x is the last iterate. Where flat tets make the first residual huge, a part of it
+ * says little: so at load 1 the last step must be small as well, below sqrt(rel_tol) of the bones' move against the tissue.
+ * A Newton step converges quadratically, so that this asks for nothing more where the residual is a good measure. */
 bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
                  solve_outcome *outcome, err *e) MUST_CHECK;
-
-/* What the residual must fall to, mN: where bones press on tissue that hangs on none of them, the contact forces are
- * the measure. */
-double descent_tolerance(const descent *d);
 
 /* point.c */
 double point_dot(const double *a, const double *b, int64_t n);

@@ -243,7 +243,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         q.outcome = outcome;
         q.energy_uj = d.energy;
         q.residual_mn = d.residual;
-        q.tolerance_mn = descent_tolerance(&d);
+        q.tolerance_mn = d.tolerance;
         q.extremes = assembly_extremes(&t->a, q.xyz, true);
         if (t->touch) {
             memcpy(start, d.x, n * sizeof *start);

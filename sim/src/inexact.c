@@ -102,7 +102,8 @@ bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *
 static double forcing(const descent *d)
 {
     double rate = d->residual_before > 0 ? d->residual / d->residual_before : 0.3;
-    return fmax(fmin(0.9 * rate * rate, 0.1), 0.5 * d->tolerance / d->residual);
+    double enough = d->residual > d->tolerance ? 0.5 * d->tolerance / d->residual : 0.1;
+    return fmax(fmin(0.9 * rate * rate, 0.1), enough);
 }
 
 /* A direction of negative curvature was met after a step that had to be cut, so what the truncated iteration

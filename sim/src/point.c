@@ -87,6 +87,7 @@ double point_line_search(descent *d)
             falls = point_dot(d->g_new, d->g_new, n) < point_dot(d->g, d->g, n);
         if (!falls) continue;
         d->residual_before = d->residual;
+        d->last_step = step * longest;
         point_accept(d, energy);
         return step;
     }

@@ -2,6 +2,7 @@
 #include "tests/check.h"
 #include "sim/motion.h"
 #include "sim/newton.h"
+#include "tests/physics/evidence.h"
 #include "tests/physics/lips.h"
 #include <string.h>
 
@@ -65,20 +66,22 @@ static void a_rigid_motion_of_all_bones_moves_all_tissue_rigidly(void **state)
     rigid turn = rigid_rotation((double[]){100, -30, 60}, (double[]){1, 0.4, -2}, 2.5);
     rigid both = rigid_compose(&turn, &shift);
     const rigid *cases[] = {&shift, &turn, &both};
+    double worst = 0;
     for (int n = 0; n < 3; n++) {
         rigid motion[SEGMENT_COUNT];
         for (int s = 0; s < SEGMENT_COUNT; s++) motion[s] = *cases[n];
         equilibrium q = solve(&m, &a, motion);
-        assert_true(worst_distance(&m, &q, cases[n]) < 1e-9);
+        assert_true(keep_worst(&worst, worst_distance(&m, &q, cases[n])) < 1e-9);
         equilibrium_free(&q);
         /* the same motions but for the last digits, so that the guide is a fit */
         motion[SEGMENT_MAXILLA].t[0] += 1e-13;
         rigid back = rigid_inverse(&turn), there = rigid_compose(&turn, &back);
         motion[SEGMENT_CRANIUM] = rigid_compose(&there, cases[n]);
         q = solve(&m, &a, motion);
-        assert_true(worst_distance(&m, &q, cases[n]) < 1e-9);
+        assert_true(keep_worst(&worst, worst_distance(&m, &q, cases[n])) < 1e-9);
         equilibrium_free(&q);
     }
+    evidence("all bones move rigidly (143 degrees, 40 mm): worst node", worst, "mm");
     tetmesh_free(&m);
     attach_map_free(&a);
 }

@@ -3,6 +3,7 @@
 #include "geometry/parallel.h"
 #include "sim/newton.h"
 #include "sim/src/contact_state.h"
+#include "tests/physics/evidence.h"
 #include "tests/physics/lips.h"
 #include <string.h>
 
@@ -396,6 +397,8 @@ static void a_pressed_block_carries_what_elasticity_says(void **state)
     material_stress(&s.table.material, F, P);
     assert_true(depth > 0 && depth < 0.1);
     assert_near(f[2], -P[8] * 20 * 16, 0.02 * fabs(f[2]));
+    evidence("contact: a block pressed on a plane, force against the closed form, off by", fabs(f[2] / (-P[8] * 20 * 16) - 1),
+             "-");
     assert_near(f[2] + q.segment_force_mn[SEGMENT_MAXILLA][2], 0, 1e-6 * f[2]);
     assert_near(q.contact.bone_area_mm2, 20 * 16, 1e-9);
     assert_near(q.contact.pressure_kpa, f[2] / (20 * 16), 0.02 * q.contact.pressure_kpa);
@@ -418,6 +421,7 @@ static void a_pressed_block_agrees_with_sliding_constraints(void **state)
     for (int32_t i = 0; i < 3 * slide.node_count; i++) worst = fmax(worst, fabs(slide.xyz[i] - touch.xyz[i]));
     assert_true(touch.contact.depth_mm < 0.1);
     assert_true(worst < 0.15);
+    evidence("contact: a block pressed 2 mm and dragged, beside sliding constraints: worst node", worst, "mm");
     double a = touch.segment_force_mn[SEGMENT_DISTAL][2], b = slide.segment_force_mn[SEGMENT_DISTAL][2];
     assert_near(a, b, 0.06 * b);
     for (int k = 0; k < 2; k++) assert_true(fabs(touch.segment_force_mn[SEGMENT_DISTAL][k]) < 1e-6 * a);

@@ -2,6 +2,7 @@
 #include "tests/check.h"
 #include "sim/newton.h"
 #include "tests/physics/block.h"
+#include "tests/physics/evidence.h"
 #include <string.h>
 
 static double *read_columns(const char *file, int columns, int32_t *rows)
@@ -52,7 +53,8 @@ static bool read_slab(slab *s)
     return true;
 }
 
-static void compare(const slab *s, material_model model, double poisson, const char *file, double tol)
+/* Returns the largest difference. */
+static double compare(const slab *s, material_model model, double poisson, const char *file, double tol)
 {
     err e = {0};
     region_material table = {REGION_ANY, {0}};
@@ -61,7 +63,7 @@ static void compare(const slab *s, material_model model, double poisson, const c
         .mesh = &s->mesh, .attach = &s->attach, .materials = &table, .material_count = 1};
     memcpy(problem.motion, s->motion, sizeof problem.motion);
     int32_t rows;
-    double *want = read_columns(file, 3, &rows), worst = 0;
+    double *want = read_columns(file, 3, &rows), worst = 0, all = 0;
     assert_non_null(want);
     assert_int_equal(rows, s->mesh.vertex_count);
     static const char *const way_name[] = {"Newton", "reused factors", "gradients"};
@@ -80,10 +82,11 @@ static void compare(const slab *s, material_model model, double poisson, const c
                       "difference %.2g mm\n",
                       material_model_name(model), poisson, way_name[way], q.iterations, q.factorisations,
                       q.total_s, q.extremes.min_j, worst);
-        assert_true(worst < tol);
+        assert_true(keep_worst(&all, worst) < tol);
         equilibrium_free(&q);
     }
     free(want);
+    return all;
 }
 
 static void the_slab_of_other_solvers_is_met(void **state)
@@ -94,13 +97,15 @@ static void the_slab_of_other_solvers_is_met(void **state)
         print_message("no cross_solver data here: skipped\n");
         skip();
     }
+    double worst = 0;
     static const char *const name[] = {"snhlog", "snh", "nhln", "nhiso"};
     for (int model = 0; model < MATERIAL_IJ_COUNT; model++)
         for (int n = 0; n < 2; n++) {
             char file[64];
             snprintf(file, sizeof file, "u_%s_nu0%d.txt", name[model], n ? 49 : 45);
-            compare(&s, (material_model)model, n ? 0.49 : 0.45, file, 1e-6);
+            keep_worst(&worst, compare(&s, (material_model)model, n ? 0.49 : 0.45, file, 1e-6));
         }
+    evidence("slab of 4k nodes, four energies, beside FEBio, dolfinx, Vega and CalculiX: worst node", worst, "mm");
     tetmesh_free(&s.mesh);
     attach_map_free(&s.attach);
 }

@@ -1,6 +1,7 @@
 /* Orders, errors and the front of a study, from skins made up to have them. */
 #include "tests/check.h"
-#include "app/study/study.h"
+#include "app/study/measures.h"
+#include <string.h>
 #include "geometry/mem.h"
 
 enum { SKIN = 100 };
@@ -64,10 +65,64 @@ static void the_soonest_is_near_enough_with_the_references_own_error(void **stat
     assert_near(t.reference_error_mm, 0.04 / (exp2(t.order) - 1), 1e-9);
     assert_true(t.best[study_family[0]] && t.best[study_family[1]] && t.best[study_default]);
     assert_false(t.best[study_family[2]]); /* slower and farther than the default */
-    assert_int_equal(study_soonest(&t, 0.1, false), study_default);
-    assert_int_equal(study_soonest(&t, 0.5, false), study_family[0]);
-    assert_int_equal(study_soonest(&t, 0.04, false), -1); /* 0.04 and the reference's own */
+    assert_int_equal(study_soonest(&t, 0.1, false, t.reference_error_mm), study_default);
+    assert_int_equal(study_soonest(&t, 0.5, false, t.reference_error_mm), study_family[0]);
+    assert_int_equal(study_soonest(&t, 0.04, false, t.reference_error_mm), -1);
+    assert_int_equal(study_soonest(&t, 0.05, false, 0), study_default);
     study_table_free(&t);
+}
+
+/* The value of the measure of that name in a run that moves each named point by mm (forward, up, left). */
+static double measured(const prepared *p, const char *name, const char *const *label, double mm[][3], int count)
+{
+    study_run r = {.point_count = p->points.count, .point_mm = NEW_ARRAY(double, 3 * (size_t)p->points.count)};
+    double value = (double)NAN;
+    for (int i = 0; i < count; i++) {
+        double *d = r.point_mm + 3 * (landmarks_find(&p->points, label[i]) - p->points.point);
+        d[0] = mm[i][2];
+        d[1] = -mm[i][0];
+        d[2] = mm[i][1];
+    }
+    for (int i = 0; i < STUDY_MEASURES; i++) {
+        char own[96];
+        study_measure_name(&study_measures[i], own, sizeof own);
+        if (strcmp(own, name)) continue;
+        value = study_measure_value(&study_measures[i], p, &r);
+        break;
+    }
+    free(r.point_mm);
+    return value;
+}
+
+static void published_measures_are_taken_from_landmarks(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *label;
+        double xyz[3];
+    } at[] = {{"U1", {0, 0, 0}},      {"Ls", {0, -10, 5}},     {"Sn", {0, -10, 20}},  {"Pn", {0, -25, 20}},
+              {"Al_L", {18, -5, 22}}, {"Al_R", {-18, -5, 22}}, {"Li_soft", {0, -9, -5}}, {"L1", {0, 1, -2}}};
+    prepared p = {.frame = {.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}}};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) landmarks_set(&p.points, at[i].label, at[i].xyz);
+    const char *const lip[2] = {"U1", "Ls"}, *const wing[2] = {"Al_L", "Al_R"}, *const lower[2] = {"L1", "Li_soft"};
+    double both[2][3] = {{5, 0, 0}, {4, 1, 0}}, wide[2][3] = {{0, 0, 1.5}, {0, 0, -0.5}}, thin[2][3] = {{6, 0, 0}, {4, 0, 0}};
+    assert_near(measured(&p, "Ls : U1, forward", lip, both, 2), 0.8, 1e-12);
+    assert_near(measured(&p, "Ls up : U1 forward", lip, both, 2), 0.2, 1e-12);
+    assert_near(measured(&p, "Al_L to Al_R, wider by mm", wing, wide, 2), 2, 1e-12);
+    assert_near(measured(&p, "Li_soft before L1, thicker by mm", lower, thin, 2), -2, 1e-12);
+    /* a right angle at Sn, level nose over upright lip: the lip goes 4 mm forward and 1 up, 14 below Sn then */
+    assert_near(measured(&p, "nasolabial angle, degrees per mm of U1 forward", lip, both, 2), -atan2(4, 14) * 180 / M_PI / 5,
+                1e-9);
+    double still[2][3] = {{0.4, 0, 0}, {4, 0, 0}}; /* the bone hardly moves */
+    assert_true(isnan(measured(&p, "Ls : U1, forward", lip, still, 2)));
+    assert_true(isnan(measured(&p, "Stms up : U1 forward", lip, both, 2)));
+    for (int i = 0; i < STUDY_MEASURES; i++) {
+        const study_measure *m = &study_measures[i];
+        assert_true(m->move >= 0 && m->move < study_move_count && m->low < m->high);
+        if (!strcmp(m->soft, "Stms")) assert_string_equal(study_measure_lacks(m, &p), "Stms");
+        if (!strcmp(m->soft, "Ls") && !strcmp(m->hard, "U1")) assert_null(study_measure_lacks(m, &p));
+    }
+    landmarks_free(&p.points);
 }
 
 int main(void)
@@ -75,6 +130,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_order_is_found_again),
         cmocka_unit_test(only_skin_that_moves_counts),
+        cmocka_unit_test(published_measures_are_taken_from_landmarks),
         cmocka_unit_test(the_soonest_is_near_enough_with_the_references_own_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
