@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Half a millimetre keeps the relief of crowns: smooth and exact distances differ by 0.04 mm on a cusp of 2 mm radius. */
-static const double step_mm = 0.5, reach_mm = 3;
+static const double grid_mm = 0.5, known_mm = 3;
 
 static double distance(const void *context, const double x[3], double grad[3], double *hess)
 {
@@ -16,9 +16,10 @@ static double distance(const void *context, const double x[3], double grad[3], d
     return v.d;
 }
 
-static bool leave(const void *context, const double x[3], const double direction[3], double hit[3], double normal[3])
+static bool leave(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
+                  double normal[3])
 {
-    return distance_field_leave(context, x, direction, hit, normal);
+    return distance_field_leave(context, x, direction, reach_mm, hit, normal);
 }
 
 bool bone_shapes_make(const prepared *p, bone_shapes *out, err *e)
@@ -33,7 +34,7 @@ bool bone_shapes_make(const prepared *p, bone_shapes *out, err *e)
             return false;
         }
         surface_bounds(bone, low, high);
-        out->field[k] = distance_field_create(out->tree[k], low, high, step_mm, reach_mm);
+        out->field[k] = distance_field_create(out->tree[k], low, high, grid_mm, known_mm);
         out->shape[k] = (bone_shape){.context = out->field[k], .distance = distance, .leave = leave};
     }
     return true;

@@ -22,9 +22,10 @@ distance_field *distance_field_create(const nearest *of, const double low[3], co
 void distance_field_destroy(distance_field **f);
 /* with_hess false leaves hess as it is. */
 void distance_field_at(const distance_field *f, const double x[3], bool with_hess, distance_value *out);
-/* Where the ray from x first meets the surface, and the unit normal of the smooth distance there; false: nowhere. */
-bool distance_field_leave(const distance_field *f, const double x[3], const double direction[3], double hit[3],
-                          double normal[3]);
+/* Where the way from x along the unit direction leaves the surface's inside for the last time within reach_mm, and the
+ * unit normal of the smooth distance there; false: it does not. */
+bool distance_field_leave(const distance_field *f, const double x[3], const double direction[3], double reach_mm,
+                          double hit[3], double normal[3]);
 
 #ifdef __cplusplus
 }

@@ -47,8 +47,9 @@ typedef struct bone_shape {
     const void *context;
     /* Distance in mm with its derivatives (hess[9] may be NULL); HUGE_VAL: farther than it needs to know. */
     double (*distance)(const void *context, const double x[3], double grad[3], double *hess);
-    /* Where the ray from x first leaves the bone, and the unit normal there; false: nowhere. */
-    bool (*leave)(const void *context, const double x[3], const double direction[3], double hit[3],
+    /* Where the way from x along the unit direction leaves the bone for the last time within reach_mm, and the unit
+     * normal there; false: it does not. */
+    bool (*leave)(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
                   double normal[3]);
 } bone_shape;
 

@@ -3,6 +3,8 @@
 #include "app/stress/stress.h"
 
 #define OVER .cells = {8, 8, 4}, .size = {32, 32, 16}
+#define KEPT_OFF(bone, size_mm) .body = specimen_kept_off_##bone, OVER, .p = size_mm
+#define KEPT_ON(bone, size_mm) .body = specimen_kept_on_##bone, OVER, .p = size_mm
 #define LIPS(label, text, gap, ...) \
     {.name = "lips/" label, .what = text, .body = specimen_lips, .cells = {6, 6, 6}, .size = {30, 24, 24}, .p = gap, __VA_ARGS__}
 
@@ -34,6 +36,28 @@ static const stress_case cases[] = {
     {.name = "ball/20", .what = "over a ball of 20 mm radius by 3 mm", .body = specimen_on_ball, OVER, .p = 20,
      .move = {0, 0, -3}, .check = CHECK_ABOVE, .slack_mm = 0.1, .want = MAY_GIVE_UP},
     {.name = "rim/press", .what = "half of it has no bone under it", .body = specimen_on_rim, OVER, .move = {0, 0, -3},
+     .want = MAY_GIVE_UP},
+    {.name = "kept/press", .what = "kept out of a ball of 10 mm radius, onto it by 3 mm", KEPT_OFF(ball, 10), .move = {0, 0, -3},
+     .check = CHECK_ABOVE},
+    {.name = "kept/press_hard", .what = "onto it by 8 of its 16 mm", KEPT_OFF(ball, 10), .move = {0, 0, -8}, .check = CHECK_ABOVE,
+     .want = MAY_GIVE_UP},
+    {.name = "kept/needle", .what = "onto a ball of 1 mm radius by 3 mm", KEPT_OFF(ball, 1), .move = {0, 0, -3},
+     .check = CHECK_ABOVE, .want = MAY_GIVE_UP},
+    {.name = "kept/drag", .what = "onto the ball by 3 mm and 20 mm along", KEPT_OFF(ball, 10), .move = {20, 0, -3},
+     .check = CHECK_ABOVE},
+    {.name = "kept/cusps_2", .what = "onto cusps 2 mm high, 4 mm apart, and 8 mm along", KEPT_OFF(cusps, 2), .move = {8, 0, -2},
+     .check = CHECK_ABOVE},
+    {.name = "kept/cusps_8", .what = "onto cusps 8 mm high, 4 mm apart, and 8 mm along", KEPT_OFF(cusps, 8), .move = {8, 0, -2},
+     .check = CHECK_ABOVE, .want = MAY_GIVE_UP, .limit_s = 300, .heavy = true},
+    {.name = "kept/lift", .what = "lifted off", KEPT_OFF(ball, 10), .move = {0, 0, 5}, .check = CHECK_RIGID},
+    {.name = "kept/off_0.4999", .what = "onto the ball by 2 mm, nearly incompressible", KEPT_OFF(ball, 10), .poisson = 0.4999,
+     .move = {0, 0, -2}, .check = CHECK_ABOVE, .heavy = true},
+    {.name = "slides/still", .what = "slides on a ball, nothing moves", KEPT_ON(ball, 20), .check = CHECK_STILL},
+    {.name = "slides/turn_90", .what = "slides on a ball, turned by 90 degrees about its middle", KEPT_ON(ball, 20), .turn_deg = 90,
+     .axis = {0, 0, 1}, .load_steps = 4, .check = CHECK_RIGID},
+    {.name = "slides/drag", .what = "slides on a ball, 10 mm along", KEPT_ON(ball, 20), .move = {10, 0, 0}},
+    {.name = "slides/cusps_1", .what = "slides over cusps 1 mm high by 2 mm", KEPT_ON(cusps, 1), .move = {2, 0, 0}},
+    {.name = "slides/cusps_4", .what = "slides over cusps 4 mm high by 6 mm", KEPT_ON(cusps, 4), .move = {6, 0, 0},
      .want = MAY_GIVE_UP},
     LIPS("still", "two lips in touch, nothing moves", 0, .check = CHECK_STILL),
     LIPS("press", "pressed together by 2 mm", 0, .move = {0, 0, -2}),

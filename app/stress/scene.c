@@ -123,5 +123,6 @@ void stress_scene_free(stress_scene *s)
     for (int k = 0; k < SEGMENT_COUNT; k++) surface_free(&s->bone[k]);
     free(s->upper);
     free(s->lower);
+    free(s->extra);
     *s = (stress_scene){0};
 }

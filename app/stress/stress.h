@@ -20,7 +20,8 @@ typedef struct stress_scene {
     double *start_xyz; /* or NULL */
     bool touches;
     surface bone[SEGMENT_COUNT];
-    int32_t *upper, *lower;
+    int32_t *upper, *lower, *extra;
+    bone_shape shape;
     contact_setup contact; /* points into this: a scene is not to be copied */
     solve_params params;
     bool average;
@@ -150,6 +151,11 @@ void specimen_on_ball(const stress_case *c, stress_scene *s);  /* above a ball o
 void specimen_on_rim(const stress_case *c,
                      stress_scene *s);                     /* half of it beside a plane that ends under it */
 void specimen_lips(const stress_case *c, stress_scene *s); /* two blocks, p apart */
+/* Block tied at its top; its bottom keeps out of, or slides on, a ball of radius p or cusps p high of known shape. */
+void specimen_kept_off_ball(const stress_case *c, stress_scene *s);
+void specimen_kept_off_cusps(const stress_case *c, stress_scene *s);
+void specimen_kept_on_ball(const stress_case *c, stress_scene *s);
+void specimen_kept_on_cusps(const stress_case *c, stress_scene *s);
 
 typedef enum mesh_flaw {
     FLAW_CRACK,  /* nodes of the middle layer doubled: two blocks that touch, both held */

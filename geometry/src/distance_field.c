@@ -165,12 +165,25 @@ void distance_field_at(const distance_field *f, const double x[3], bool with_hes
     for (int n = 0; n < 9; n++) out->hess[n] = hess[place[n]] / (f->step * f->step);
 }
 
-bool distance_field_leave(const distance_field *f, const double x[3], const double direction[3], double hit[3],
-                          double normal[3])
+bool distance_field_leave(const distance_field *f, const double x[3], const double direction[3], double reach_mm,
+                          double hit[3], double normal[3])
 {
-    distance_value v;
-    if (!nearest_ray(f->of, x, direction, hit, NULL)) return false;
-    distance_field_at(f, hit, false, &v);
-    vec_copy(v.grad, normal);
-    return isfinite(v.d) && vec_normalize(normal) > 0;
+    enum { CROSSINGS = 16 };
+    static const double past_mm = 1e-3; /* a crossing is left behind by so much */
+    double from[3], at[3];
+    bool found = false;
+    vec_copy(x, from);
+    for (int k = 0; k < CROSSINGS && nearest_ray(f->of, from, direction, at, NULL); k++) {
+        distance_value v;
+        if (vec_distance(x, at) > reach_mm) break;
+        distance_field_at(f, at, false, &v);
+        if (isfinite(v.d) && vec_dot(v.grad, direction) > 0 && vec_norm(v.grad) > 0) {
+            vec_copy(at, hit);
+            vec_copy(v.grad, normal);
+            vec_normalize(normal);
+            found = true;
+        }
+        vec_axpy(at, past_mm, direction, from);
+    }
+    return found;
 }

@@ -23,6 +23,7 @@ void contact_restart(contact *c)
 void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *guide, const double *rest_xyz)
 {
     c->guide = *guide;
+    c->rest_xyz = rest_xyz;
     c->motion_reach_mm = 0;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         c->motion[s] = motion[s];

@@ -90,24 +90,38 @@ static void refresh_link(contact *c, int32_t i, contact_link *link, const double
     link->count = kept;
 }
 
-/* A shape knows its inside, but of a thin bone not the side from which the node came: where a node would be
- * pushed on the way that it went, it sees the plane at which the way back leaves the bone. */
+/* The plane at which the way back to where the node came from leaves the bone. The node cannot have gone farther into
+ * it than it went; a bone that lies behind the tissue at rest too was not passed. */
+static bool find_way_back(const contact *c, int32_t i, contact_link *link, const double at[3], const double facing[3])
+{
+    const bone_shape *shape = c->setup.shape[link->collider];
+    const double *rest = c->rest_xyz + 3 * (size_t)c->node[i];
+    double hit[3], rest_hit[3], rest_normal[3], rest_facing[3], gone = vec_distance(at, rest);
+    if (!shape->leave(shape->context, at, facing, gone + deep_mm, hit, link->m)) return false;
+    if (!(vec_dot(link->m, facing) > -backwards)) return false;
+    vec_scale(c->outward + 3 * (size_t)i, -1, rest_facing);
+    if (shape->leave(shape->context, rest, rest_facing, vec_distance(hit, at) + deep_mm, rest_hit, rest_normal) &&
+        vec_distance(rest, rest_hit) > deep_mm) /* else its own surface */
+        return false;
+    link->base = -vec_dot(link->m, hit);
+    return true;
+}
+
+/* A shape knows its inside, but of a thin bone not the side from which the node came: where a node would be pushed on
+ * the way that it went, or has gone through, it sees the plane at its way back. */
 static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const double *x)
 {
     const bone_shape *shape = c->setup.shape[link->collider];
-    double at[3], facing[3], grad[3], hit[3];
+    double at[3], facing[3], grad[3];
     look(c, i, link, x, at, facing);
-    link->flat = link->lost = false;
     link->plane_mm = HUGE_VAL;
     link->scale = link->cover = 1;
     double d = shape->distance(shape->context, at, grad, NULL);
-    link->near = d < HUGE_VAL;
-    if (!(d < 0) || vec_dot(grad, facing) > backwards * vec_norm(grad)) return;
-    link->flat = shape->leave(shape->context, at, facing, hit, link->m) && vec_dot(link->m, facing) > -backwards &&
-                 vec_distance(hit, at) < c->motion_reach_mm + deep_mm;
-    link->lost = !link->flat && d < -deep_mm;
-    link->near = !link->lost;
-    link->base = -vec_dot(link->m, hit);
+    bool inside = d < 0, wrong = inside && vec_dot(grad, facing) <= backwards * vec_norm(grad);
+    bool may_have_passed = !inside && vec_distance(at, c->rest_xyz + 3 * (size_t)c->node[i]) > link->rest_gap_mm;
+    link->flat = (wrong || may_have_passed) && find_way_back(c, i, link, at, facing);
+    link->lost = wrong && !link->flat && d < -deep_mm;
+    link->near = link->flat || (d < HUGE_VAL && !link->lost);
 }
 
 typedef struct refresh_job {

@@ -11,10 +11,11 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
+    bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side, or it has passed through */
     bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
                  */
     double threshold_mm;  /* tau */
+    double rest_gap_mm;   /* to a shape; a node that moved less against it cannot have passed through */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
     /* frozen at refresh */
@@ -47,6 +48,7 @@ typedef struct contact {
     imls_cloud cloud[COLLIDER_COUNT];
     int32_t *lip_node[2], *lip_tri[2], lip_tri_count[2]; /* mesh numbers of samples; triangles of samples */
     double motion_reach_mm;
+    const double *rest_xyz; /* [3*mesh nodes] borrowed */
     rigid motion[SEGMENT_COUNT], back[SEGMENT_COUNT], guide;
     int32_t link_count, *link_start; /* [node_count + 1] */
     contact_link *link;

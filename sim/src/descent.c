@@ -114,15 +114,18 @@ static bool renews_each_time(const contact *c, int iteration)
  * contact forces are what it is measured by. */
 static bool is_solved(descent *d)
 {
+    static const double near = 100; /* tolerances: what rounding does to the elastic forces is asked from here on */
     const contact *c = d->touching ? d->t->touch : NULL;
     if (c) d->tolerance = fmax(fmax(d->asked, contact_force_noise(c, d->x)), d->rel_tol * contact_force(c));
+    if (c && d->residual > d->tolerance && d->residual < near * d->tolerance)
+        d->tolerance = fmax(d->tolerance, assembly_force_noise(&d->t->a, d->x));
     return d->residual <= d->tolerance && !(d->last_step > d->settled);
 }
 
 /* How far bones move from where the guide would carry them. */
 static double bones_move(const solver *t)
 {
-    double most = 0;
+    double most = t->touch ? t->touch->motion_reach_mm : 0;
     for (int32_t v = 0; v < t->b.node_count; v++) {
         double carried[3];
         if (t->attach->kind[v] == NODE_FREE) continue;
@@ -225,7 +228,8 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     bool on_the_way = load < 1 || rel_tol * reference <= floor;
     d->settled = on_the_way ? HUGE_VAL : sqrt(rel_tol) * bones_move(t);
     d->out->reference_mn = reference;
-    bool touch = t->touch && !(t->touch->setup.held && load < 1); /* what keeps in touch meets bone at the end */
+    bool late = t->touch && t->touch->setup.held && !d->touch_on_the_way;
+    bool touch = t->touch && !(late && load < 1);
     if (touch) {
         d->touching = true;
         contact_refresh(t->touch, d->x);

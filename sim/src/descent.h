@@ -51,6 +51,7 @@ typedef struct descent {
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
     bool touching; /* contact counts now */
+    bool touch_on_the_way; /* held contact counts at all loads, not at the last one only */
     bool cut;      /* the last step was */
     int64_t cg_at_load;
     double blend;    /* part of the clamped matrix that the last blend needed */

@@ -219,13 +219,18 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         }
         q.loads++;
         double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
-        bool loose = t->touch && (t->touch->setup.held ? target >= 1 : q.load_reached == 0) && !from_guess;
+        bool loose = t->touch && (t->touch->setup.held && !d.touch_on_the_way ? target >= 1 : q.load_reached == 0) && !from_guess;
         ok = descent_run(&d, target, rel_tol, loose, start, &outcome, e);
         if (!ok || outcome == STOPPED_INTERRUPTED) break;
         if (outcome == SOLVED) {
             q.load_reached = target;
             memcpy(at_load, d.x, n * sizeof *at_load);
             if (++eased >= 2) step = fmin(2 * step, 1.0 / params->load_steps);
+        } else if (t->touch && t->touch->setup.held && !d.touch_on_the_way && params->max_halvings > 0) {
+            d.touch_on_the_way = true; /* contact that comes at the end is too much: feel it from the start */
+            q.halvings++;
+            q.load_reached = 0;
+            memcpy(at_load, t->mesh->xyz, n * sizeof *at_load);
         } else if (from_guess && params->max_halvings > 0) {
             q.halvings++; /* the guess led nowhere: take the way from rest */
         } else if (q.halvings < params->max_halvings) {
