@@ -39,7 +39,9 @@ static void print_orders(const study_table *t, FILE *out)
             "made anew with "
             "edges twice as long as the case's: surface and attachments change with it. \"halved\" splits "
             "each tet in "
-            "eight and keeps them: what it changes is the discretisation alone.\n\n",
+            "eight and keeps them: what it changes is the discretisation alone. Contact with bone, which "
+            "predict counts in, is left out but in two rows."
+            "\n\n",
             t->count, reference, own->vertices);
     fprintf(out, "The case's own mesh is %.3f mm off in the mean, %.3f mm at 95 %%, %.2f mm at most. ",
             own->mean_mm, own->p95_mm, own->max_mm);
