@@ -73,7 +73,7 @@ for folder; do
 done
 
 # ---- the page ----
-took() { [ ! -f "$work/$1.seconds" ] || awk '{ printf " It took %.0f minutes.", $1 / 60 + 0.5 }' "$work/$1.seconds"; }
+took() { [ ! -f "$work/$1.seconds" ] || awk '{ printf " It took %.1f minutes.", $1 / 60 }' "$work/$1.seconds"; }
 body() { sed '1d;s/^#/##/' "$1"; } # without the title, headings one level down
 outside() { # ratios.md: what lies outside, one a line
     awk -F'|' '/OUTSIDE/ { for (k = 2; k <= 8; k++) gsub(/^ +| +$/, "", $k)
