@@ -15,6 +15,7 @@ double stress_height(const stress_case *c, double x, double y)
     }
     if (c->body == specimen_kept_off_cusps || c->body == specimen_kept_on_cusps)
         return c->p / 2 * (cos(M_PI / 2 * u) * cos(M_PI / 2 * w) - 1);
+    if ((c->body == specimen_kept_off_ball || c->body == specimen_kept_on_ball) && u * u + w * w > c->p * c->p) return -HUGE_VAL;
     if (c->body == specimen_on_ball || c->body == specimen_kept_off_ball || c->body == specimen_kept_on_ball)
         return sqrt(fmax(c->p * c->p - u * u - w * w, 0)) - c->p;
     return -c->p;
