@@ -3,6 +3,7 @@
  * right one. G = 0.375, lambda = 7500 kPa (nu 0.499975). The tip (48, 52) rises by 16.4326 mm in linear
  * elasticity: Krysl, FAESOR, Cook_3D_strain, by Richardson's extrapolation of nodally integrated quadratic
  * triangles. */
+#include "tests/physics/evidence.h"
 #include "tests/physics/loaded.h"
 
 static const double shear_kpa = 0.375, lame_kpa = 7500, reference_mm = 16.432584;
@@ -94,8 +95,10 @@ static void averages_find_the_rise_of_the_tip(void **state)
         }
         for (int k = 1; k < 4; k++) assert_true(off[1][k] > 0 && off[1][k] < 0.75 * off[1][k - 1]);
         assert_true(off[1][3] < 0.08 && off[1][2] < off[0][3]);
-        if (tets == 6)
-            assert_true(off[0][3] > 0.7 && off[0][0] - off[0][3] < 0.02); /* locked whatever the cells */
+        if (tets == 5) continue;
+        assert_true(off[0][3] > 0.7 && off[0][0] - off[0][3] < 0.02); /* locked whatever the cells */
+        evidence("Cook's membrane, Poisson 0.499975: linear tets miss of the rise", 100 * off[0][3], "%");
+        evidence("Cook's membrane, Poisson 0.499975: averaged volumes miss of it", 100 * off[1][3], "%");
     }
 }
 
