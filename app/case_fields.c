@@ -103,7 +103,14 @@ static const field rows[] = {
     MATERIAL(young_kpa, "kPa", ABOVE(0), TO(100000),
              "Stiffness; it does not change the shape while only bones move it."),
     MATERIAL(poisson, NULL, FROM(0), TO(0.499),
-             "Poisson's ratio; linear tetrahedra stiffen falsely near 0.5."),
+             "Poisson's ratio; near 0.5 the element matters."),
+    {.name = "tissue.element",
+     .kind = FIELD_WORD,
+     .offset = offsetof(case_file, material.element),
+     .words = "auto linear averaged",
+     .help = "linear: tetrahedra of one strain each, which stiffen falsely (lock) near Poisson's ratio 0.5; averaged: "
+             "with volume changes averaged around each node (what exceeds Poisson's ratio 0.4), dearer and without that; "
+             "auto: averaged from 0.48 on."},
 #define LIMIT(id, field, part, unit_, help_)                                                                  \
     {                                                                                                        \
         .name = "limits." #field "." #part, .kind = FIELD_RANGE,                                             \

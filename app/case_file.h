@@ -33,6 +33,7 @@ typedef struct case_osteotomy {
 
 typedef struct case_material {
     double young_kpa, poisson;
+    int element; /* element_kind: auto, linear, averaged */
 } case_material;
 
 typedef struct case_file {

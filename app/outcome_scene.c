@@ -16,6 +16,23 @@ static double worst_on_skin(const prepared *p, const double *error)
     return worst;
 }
 
+/* Which element the tissue has, and why. */
+static void element_words(const outcome *o, char *out, size_t size)
+{
+    const case_material *c = &o->patient->material;
+    bool averaged = o->tissue->material[0].material.averaged_kpa > 0;
+    const char *kind = averaged ? "linear tetrahedra with averaged volume changes" : "linear tetrahedra";
+    if (c->element == ELEMENT_AVERAGED && !averaged)
+        snprintf(out, size, "%s: up to Poisson's ratio %g nothing is averaged", kind, element_keeps);
+    else if (c->element != ELEMENT_AUTO)
+        snprintf(out, size, "%s, as the case asks for%s", kind,
+                 !averaged && c->poisson >= element_average_from ? ", though they stiffen falsely at its Poisson's ratio"
+                                                                 : "");
+    else
+        snprintf(out, size, "%s: Poisson's ratio %g is %s %g, from where averaging %s", kind, c->poisson,
+                 averaged ? "not below" : "below", element_average_from, averaged ? "pays" : "would pay");
+}
+
 static json_t *entry(const char *what, const char *why, json_t *skin_error)
 {
     return json_pack("{ss ss so}", "what", what, "why", why, "skin_error_mm", skin_error);
@@ -100,12 +117,16 @@ json_t *outcome_scene_json(const outcome *o)
 {
     const scene_report *s = o->scene;
     json_t *on = json_array(), *left_out = json_array();
-    json_array_append_new(on, json_string("elastic tissue (Stable Neo-Hookean, linear tetrahedra)"));
+    char element[160], text[200];
+    element_words(o, element, sizeof element);
+    snprintf(text, sizeof text, "elastic tissue (Stable Neo-Hookean), %s", element);
+    json_array_append_new(on, json_string(text));
     list_contact(o, on, left_out);
     list_plan_tissue(o, on, left_out);
     json_array_append_new(left_out, entry("expressions and jaw motion", "not built", json_null()));
     list_tissue(o, left_out);
-    return json_pack("{so so sb si si sf si sf sf sf}", "on", on, "left_out", left_out, "full", s->full,
+    return json_pack("{so so ss sb si si sf si sf sf sf}", "on", on, "left_out", left_out, "element",
+                     o->tissue->material[0].material.averaged_kpa > 0 ? "averaged" : "linear", "full", s->full,
                      "tets", s->tets, "left_out_tets", s->left_out_tets, "tolerance_mm", s->tolerance_mm,
                      "rounds", s->rounds, "tissue_error_mm", s->error_mm, "estimate_s", s->estimate_s,
                      "check_s", s->check_s);
@@ -114,6 +135,9 @@ json_t *outcome_scene_json(const outcome *o)
 void outcome_scene_print(const outcome *o)
 {
     const scene_report *s = o->scene;
+    char element[160];
+    element_words(o, element, sizeof element);
+    printf("tissue: %s\n", element);
     if (s->full)
         printf("scene: all %d tets are solved for\n", s->tets);
     else

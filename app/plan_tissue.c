@@ -10,9 +10,11 @@ static bool make_materials(const case_file *c, plan_tissue *t, err *e)
     t->material[0].region = REGION_ANY;
     t->material[1].region = REGION_SEPTUM;
     t->material_count = t->nose.septum_tets ? 2 : 1;
-    return material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson,
-                         &t->material[0].material, e) &&
-           material_make(MATERIAL_SNH_LOG, cartilage_kpa, cartilage_poisson, &t->material[1].material, e);
+    element_kind kind = (element_kind)c->material.element;
+    material *flesh = &t->material[0].material, *cartilage = &t->material[1].material;
+    return material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson, flesh, e) &&
+           material_make(MATERIAL_SNH_LOG, cartilage_kpa, cartilage_poisson, cartilage, e) &&
+           element_choose(flesh, kind, e) && element_choose(cartilage, kind, e);
 }
 
 static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t,

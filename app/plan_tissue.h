@@ -5,7 +5,7 @@
 #include "geometry/lip_rest.h"
 #include "geometry/nose.h"
 #include "geometry/plan_attach.h"
-#include "sim/material.h"
+#include "sim/element.h"
 
 typedef struct plan_tissue {
     tetmesh

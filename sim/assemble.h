@@ -16,8 +16,9 @@ typedef struct assembly {
     elements el;        /* owned */
     /* elements around each node: source = 4 tet + local node */
     int32_t *node_start, *node_source;
-    /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed), or -1
-     * for a coupling, whose block assembly_stiffness leaves to what else adds to it */
+    /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed), or -1 - k
+     * for coupling k: first the pairs of `average`, then those of assembly_make, which are left to what else
+     * adds to edge_block */
     int32_t edge_count;
     int32_t *edge_node, *edge_start, *edge_source;
     /* lower triangle by columns, rows ascending */
@@ -28,8 +29,7 @@ typedef struct assembly {
     int32_t shared_count;
     int32_t *shared_block, *shared_slot; /* block = 9 edge + entry */
     double *element_energy, *element_force, *element_block, *edge_block;
-    /* averaged volume changes: [node_count] each, else NULL */
-    double average_lambda_kpa, *node_volume, *node_pressure;
+    struct averages *average; /* of volume changes, where a material asks for them, else NULL */
 } assembly;
 
 /* Takes *el over (leaves it empty) on success. coupling[2*coupling_count]: further pairs of nodes, low <

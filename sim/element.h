@@ -22,6 +22,21 @@ bool elements_make(const tetmesh *m, const region_material *table, int32_t table
                    err *e) MUST_CHECK;
 void elements_free(elements *el);
 
+/* What the volume change of a material is taken from: J of each tet, or its mean around each node where that
+ * is worth its price (see average.h). */
+typedef enum element_kind {
+    ELEMENT_AUTO, /* averaged from nu = element_average_from on */
+    ELEMENT_LINEAR,
+    ELEMENT_AVERAGED /* above nu = element_keeps */
+} element_kind;
+extern const double element_average_from;
+/* The part of lambda that makes a material with this nu is never averaged: linear tets bear it, and without it
+ * single tets turn inside out in a mesh of a head. */
+extern const double element_keeps;
+/* Sets averaged_kpa; 0 means linear. Models other than snhlog and snh are linear in AUTO, and AVERAGED is
+ * refused (ERR_INPUT). */
+bool element_choose(material *m, element_kind kind, err *e) MUST_CHECK;
+
 /* The ten node pairs of a tet that carry stiffness, i <= j. */
 enum { ELEMENT_PAIRS = 10 };
 extern const int element_pair[ELEMENT_PAIRS][2];

@@ -96,7 +96,6 @@ typedef struct equilibrium_problem {
     const contact_setup *contact; /* NULL: sliding and paired nodes keep in touch, nothing else touches */
     rigid motion[SEGMENT_COUNT];  /* where each bone goes from rest */
     const double *start_xyz;      /* [3*nodes] a guess at the result, or NULL */
-    bool average_volume; /* nodal averages of J, less locking near nu = 0.5: one material, snhlog or snh */
 } equilibrium_problem;
 
 typedef struct equilibrium {

@@ -12,6 +12,9 @@
 #define LAYERS(number, ...) \
     {.name = "layers/" #number, .what = "soft, stiff, soft: bent and sheared", .body = specimen_layers, BLOCK, .contrast = number, \
      __VA_ARGS__}
+#define MEAN_LAYERS(number) \
+    {.name = "averaged/layers_" #number, .what = "soft, stiff, soft, all with averaged volume changes", \
+     .body = specimen_layers, BLOCK, .contrast = number, .poisson = 0.49, .average = true}
 #define SOFT_LAYER(number) \
     {.name = "soft_layer/" #number, .what = "stiff, soft, stiff", .body = specimen_layers, BLOCK, .contrast = number}
 #define GRAINS(number, ...) \
@@ -25,7 +28,7 @@ static const stress_case cases[] = {
     MODEL("snh_0.499", MATERIAL_SNH, 0.499), MODEL("fcr_0.499", MATERIAL_FIXED_COROTATED, 0.499),
     MODEL("arap", MATERIAL_ARAP, 0), MODEL("nhln_0.49", MATERIAL_NH_LN, 0.49),
     MODEL("nhiso_0.4999", MATERIAL_NH_ISO, 0.4999), MODEL("snhlog_-0.9", MATERIAL_SNH_LOG, -0.9),
-    MEAN(0.49), MEAN(0.499), MEAN(0.4999),
+    MEAN(0.49), MEAN(0.499), MEAN(0.4999), MEAN_LAYERS(1e2), MEAN_LAYERS(1e4),
     LAYERS(1e2), LAYERS(1e4), LAYERS(1e6), LAYERS(1e8, .heavy = true), SOFT_LAYER(1e-4), SOFT_LAYER(1e-8),
     GRAINS(1e2), GRAINS(1e4, .heavy = true), GRAINS(1e6, .heavy = true),
     GRAINS(1e8, .heavy = true, .want = MAY_GIVE_UP), GRAINS(1e-8), SKIN(30), SKIN(1e3),

@@ -25,6 +25,8 @@ static const stress_case cases[] = {
      .start = START_SUNK, .check = CHECK_ABOVE},
     {.name = "plane/0.4999", .what = "pressed, nearly incompressible", .body = specimen_on_plane, OVER, .poisson = 0.4999,
      .move = {0, 0, -2}, .check = CHECK_ABOVE, .heavy = true},
+    {.name = "plane/averaged_0.4999", .what = "the same with averaged volume changes", .body = specimen_on_plane, OVER,
+     .poisson = 0.4999, .average = true, .move = {0, 0, -2}, .check = CHECK_ABOVE},
     {.name = "teeth/1", .what = "onto pyramids 1 mm high, 4 mm apart", .body = specimen_on_teeth, OVER, .p = 1,
      .move = {0, 0, -2}, .check = CHECK_ABOVE, .slack_mm = 0.3, .heavy = true},
     {.name = "teeth/4", .what = "onto pyramids 4 mm high, 4 mm apart", .body = specimen_on_teeth, OVER, .p = 4,
@@ -67,5 +69,7 @@ static const stress_case cases[] = {
     LIPS("tilt", "turned by 10 degrees", 0, .turn_deg = 10, .axis = {1, 0, 0}),
     LIPS("press_hard", "pressed together by 8 mm", 0, .move = {0, 0, -8}, .want = MAY_GIVE_UP),
     LIPS("contact_0.4999", "pressed by 2 mm, nearly incompressible", 0, .move = {0, 0, -2}, .poisson = 0.4999),
+    LIPS("averaged_0.4999", "the same with averaged volume changes", 0, .move = {0, 0, -2}, .poisson = 0.4999,
+         .average = true),
 };
 const stress_family stress_touching = {cases, sizeof cases / sizeof *cases};

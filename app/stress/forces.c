@@ -28,22 +28,30 @@ void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9
     *volume = six / 6;
 }
 
-/* Pressures of averaged volume changes at the nodes, else NULL. Caller frees. */
-static double *node_pressures(const stress_scene *s, const double *x)
+static int material_at(const stress_scene *s, int32_t t)
 {
-    if (!s->average) return NULL;
+    return s->mesh.region[t] && s->material_count > 1;
+}
+
+/* Pressures of averaged volume changes at each node in either material, and their energy. Caller frees. */
+static double *node_pressures(const stress_scene *s, const double *x, double *energy)
+{
     int32_t n = s->mesh.vertex_count;
-    double *before = NEW_ARRAY(double, n), *after = NEW_ARRAY(double, n);
+    double *before = NEW_ARRAY(double, 2 * (size_t)n), *after = NEW_ARRAY(double, 2 * (size_t)n);
     for (int32_t t = 0; t < s->mesh.tet_count; t++) {
         double F[9], g[12], volume;
         stress_deformation(&s->mesh, x, t, F, g, &volume);
         for (int a = 0; a < 4; a++) {
-            before[s->mesh.tet[4 * (size_t)t + a]] += volume;
-            after[s->mesh.tet[4 * (size_t)t + a]] += volume * mat_det(F);
+            int32_t at = s->mesh.tet[4 * (size_t)t + a] + n * material_at(s, t);
+            before[at] += volume / 4;
+            after[at] += volume / 4 * mat_det(F);
         }
     }
-    for (int32_t v = 0; v < n; v++)
-        after[v] = s->material[0].material.lambda_kpa * (after[v] / before[v] - 1);
+    for (int32_t i = 0; i < 2 * n; i++) {
+        double kpa = s->material[i / n].material.averaged_kpa, change = before[i] > 0 ? after[i] / before[i] - 1 : 0;
+        *energy += before[i] * kpa / 2 * change * change;
+        after[i] = kpa * change;
+    }
     free(before);
     return after;
 }
@@ -51,18 +59,16 @@ static double *node_pressures(const stress_scene *s, const double *x)
 double stress_forces(const stress_scene *s, const double *x, double *force)
 {
     const tetmesh *m = &s->mesh;
-    double energy = 0, *pressure = node_pressures(s, x);
+    double energy = 0, *pressure = node_pressures(s, x, &energy);
     memset(force, 0, 3 * (size_t)m->vertex_count * sizeof *force);
     for (int32_t t = 0; t < m->tet_count; t++) {
         double F[9], g[12], P[9], volume, push[3];
         const int32_t *v = m->tet + 4 * (size_t)t;
         stress_deformation(&s->mesh, x, t, F, g, &volume);
-        material one = s->material[m->region[t] && s->material_count > 1].material;
-        if (pressure) {
-            one.lambda_kpa = 0;
-            one.pressure_kpa = (pressure[v[0]] + pressure[v[1]] + pressure[v[2]] + pressure[v[3]]) / 4;
-        }
+        material one = s->material[material_at(s, t)].material;
+        one.lambda_kpa -= one.averaged_kpa;
         energy += volume * material_energy(&one, F);
+        for (int a = 0; a < 4; a++) one.pressure_kpa += pressure[v[a] + m->vertex_count * material_at(s, t)] / 4;
         material_stress(&one, F, P);
         for (int a = 0; a < 4; a++) {
             mat_apply(P, g + 3 * a, push);

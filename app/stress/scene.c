@@ -17,11 +17,12 @@ static void make_materials(const stress_case *c, stress_scene *s)
     err e = {0};
     double young = c->young > 0 ? c->young : 15, contrast = c->contrast > 0 ? c->contrast : 1;
     double poisson = c->model == MATERIAL_ARAP ? 0 : c->poisson > 0 ? c->poisson : 0.45;
-    s->material_count = c->average ? 1 : 2; /* averages need one */
+    s->material_count = 2;
     for (int k = 0; k < s->material_count; k++) {
-        s->material[k].region = c->average ? REGION_ANY : k;
+        s->material[k].region = k;
         bool ok = material_make((material_model)c->model, k ? young * contrast : young, poisson,
-                                &s->material[k].material, &e);
+                                &s->material[k].material, &e) &&
+                  element_choose(&s->material[k].material, c->average ? ELEMENT_AVERAGED : ELEMENT_LINEAR, &e);
         assert(ok); /* the table is ours */
     }
 }
@@ -89,7 +90,7 @@ static void make_start(const stress_case *c, double scale, stress_scene *s)
 
 void stress_scene_make(const stress_case *c, double scale, stress_scene *s)
 {
-    *s = (stress_scene){.params = solve_params_default(), .average = c->average};
+    *s = (stress_scene){.params = solve_params_default()};
     if (!(scale > 0)) scale = c->scale > 0 ? c->scale : 1;
     c->body(c, s);
     for (size_t i = 0; i < 3 * (size_t)s->mesh.vertex_count; i++)
@@ -109,8 +110,7 @@ equilibrium_problem stress_problem(const stress_scene *s)
                              .materials = s->material,
                              .material_count = s->material_count,
                              .contact = s->touches ? &s->contact : NULL,
-                             .start_xyz = s->start_xyz,
-                             .average_volume = s->average};
+                             .start_xyz = s->start_xyz};
     memcpy(p.motion, s->motion, sizeof p.motion);
     return p;
 }

@@ -24,7 +24,6 @@ typedef struct stress_scene {
     bone_shape shape;
     contact_setup contact; /* points into this: a scene is not to be copied */
     solve_params params;
-    bool average;
 } stress_scene;
 
 typedef enum stress_kind {
@@ -125,7 +124,7 @@ void stress_verify(const stress_case *c, const stress_scene *s, const equilibriu
 /* F of a tet at x[3*nodes], gradients of its shape functions and volume at rest. */
 void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9], double gradient[12],
                         double *volume);
-/* force[3*nodes]: derivative of the elastic energy, mN; returns the energy (but for averaged volumes), uJ. */
+/* force[3*nodes]: derivative of the elastic energy, mN; returns the energy, uJ. */
 double stress_forces(const stress_scene *s, const double *x, double *force);
 
 /* Bodies. Block: between distal (bottom) and maxilla (top). */

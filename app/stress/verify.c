@@ -156,7 +156,7 @@ static void check_forces(check *k)
     k->r->checked_mn = residual(k, force);
     if (!(k->r->checked_mn <= 1.01 * k->q->tolerance_mn + 16 * noise))
         fail(k, "residual is %.3g mN, above the tolerance of %.3g", k->r->checked_mn, k->q->tolerance_mn);
-    if (!k->s->touches && !k->s->average &&
+    if (!k->s->touches &&
         !(fabs(energy - k->q->energy_uj) <= 1e-6 * (fabs(energy) + noise * k->size)))
         fail(k, "energy is %.12g uJ, not %.12g as it says", energy, k->q->energy_uj);
     free(force);
@@ -194,7 +194,7 @@ static bool newton_step(check *k, double *longest, err *e)
 static void check_correction(check *k)
 {
     err e = {0};
-    if (k->s->touches || k->s->average || k->b.unknown_count == 0) return;
+    if (k->s->touches || k->b.unknown_count == 0) return;
     if (!newton_step(k, &k->r->correction_mm, &e)) {
         fail(k, "no Newton step from the result: %.150s", e.text);
         return;

@@ -69,12 +69,12 @@ static bool counts(const study_table *t, int i)
            study_rungs[i].group != GROUP_THREADS && !study_rungs[i].contact && t->error[i].mean_mm > 0;
 }
 
-static double slope_of(const study_table *t, bool average)
+static double slope_of(const study_table *t, element_kind element)
 {
     double *h = NEW_ARRAY(double, t->count), *d = NEW_ARRAY(double, t->count);
     int n = 0;
     for (int i = 0; i < t->count; i++) {
-        if (!counts(t, i) || study_rungs[i].group > GROUP_ELEMENT || study_rungs[i].average != average ||
+        if (!counts(t, i) || study_rungs[i].group > GROUP_ELEMENT || study_rungs[i].element != (int)element ||
             study_rungs[i].refined)
             continue;
         h[n] = t->run[i].result.size_mm;
@@ -110,8 +110,8 @@ void study_table_make(study_table *t)
         d[k] = study_compare(&t->run[study_family[k]], &t->run[study_family[2]]).mean_mm;
     t->order = study_order(d);
     t->reference_error_mm = isnan(t->order) ? step : step / (exp2(t->order) - 1);
-    t->plain_slope = slope_of(t, false);
-    t->average_slope = slope_of(t, true);
+    t->plain_slope = slope_of(t, ELEMENT_AUTO);
+    t->average_slope = slope_of(t, ELEMENT_AVERAGED);
 }
 
 void study_table_free(study_table *t)

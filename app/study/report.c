@@ -124,9 +124,8 @@ void study_print(const study_table *t, FILE *out)
         "contact answer another question: only that column says something of them. \"front\" marks what "
         "nothing "
         "beats in both time and mean error. \"averaged\" is the element with averaged volumes, which locks "
-        "less%s.\n\n",
-        t->cores,
-        STUDY_AVERAGE_IS_PLAIN ? "; it has a single material here, so the nose's septum is soft in it" : "");
+        "less.\n\n",
+        t->cores);
     fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (of them with contact) | factors | "
                  "wall s | CPU s "
                  "| order/assemble/factor/solve s "

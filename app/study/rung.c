@@ -40,6 +40,7 @@ bool study_task_key(study_task *t, err *e)
     content_hash_text(h, "case", ok ? inputs : "");
     content_hash_number(h, "young", t->patient->material.young_kpa);
     content_hash_number(h, "poisson", t->patient->material.poisson);
+    content_hash_number(h, "element", t->patient->material.element);
     content_hash_number(h, "loads", t->load_steps);
     content_hash_bytes(h, t->motion, sizeof t->motion);
     content_hash_end(h, t->key);
@@ -48,8 +49,9 @@ bool study_task_key(study_task *t, err *e)
 
 static void rung_path(const study_task *t, const study_rung *r, char *out, size_t size)
 {
+    static const char *const element[] = {"", "_linear", "_averaged"};
     snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d_s%g.pack", t->folder, t->name, r->coarsening,
-             r->refined, r->average ? "_avg" : "", r->rel_tol, r->model, r->poisson, r->threads,
+             r->refined, element[r->element], r->rel_tol, r->model, r->poisson, r->threads,
              r->contact == CONTACT_BONES ? "_bones" : r->contact == CONTACT_LIPS ? "_lips" : "", r->load_steps, r->scene_mm);
 }
 
@@ -81,15 +83,10 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
 {
     plan_tissue flesh;
     if (!plan_tissue_make(t->patient, p, t->motion, r->contact == CONTACT_LIPS, &flesh, e)) return false;
-    if (r->average && STUDY_AVERAGE_IS_PLAIN) {
-        flesh.mesh.region = p->tissue.mesh.region;
-        flesh.material_count = 1;
-    }
     equilibrium_problem problem = {.mesh = &flesh.mesh,
                                    .attach = &flesh.attach,
                                    .materials = flesh.material,
-                                   .material_count = flesh.material_count,
-                                   .average_volume = r->average};
+                                   .material_count = flesh.material_count};
     memcpy(problem.motion, t->motion, sizeof t->motion);
     solve_params params = solve_params_default();
     if (r->rel_tol > 0) params.rel_tol = r->rel_tol;
@@ -104,6 +101,8 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
                             r->poisson > 0 ? r->poisson : t->patient->material.poisson,
                             &flesh.material[0].material, e) &&
               (!r->contact || bone_shapes_make(p, &bones, e));
+    element_kind element = (element_kind)(r->element ? r->element : t->patient->material.element);
+    for (int k = 0; ok && k < flesh.material_count; k++) ok = element_choose(&flesh.material[k].material, element, e);
     if (ok && r->contact) {
         plan_contact_make(r->contact, &p->tissue, &bones, &flesh.attach, t->motion, flesh.material[0].material.young_kpa,
                           &touch);

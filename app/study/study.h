@@ -17,15 +17,12 @@ typedef enum study_group {
     GROUP_COUNT
 } study_group;
 
-/* Averaged volumes are of one material: their rungs have no stiff septum. 0: of several. */
-enum { STUDY_AVERAGE_IS_PLAIN = 1 };
-
 typedef struct study_rung {
     const char *name;
     int group;
     double coarsening; /* edge lengths over those of the case */
     int refined;       /* times that every tet became eight */
-    bool average;      /* averaged volume changes */
+    int element;       /* element_kind; auto: the case's */
     double rel_tol;    /* 0: the solver's default */
     int model;         /* material_model */
     double poisson;    /* 0: the case's */

@@ -190,9 +190,9 @@ static void work(void *context, void *result)
     ring(row.cells, &m, &a);
     bool ok = material_make(MATERIAL_SNH_LOG, j->task->patient->material.young_kpa, row.poisson,
                             &table.material, &e) &&
+              element_choose(&table.material, row.average ? ELEMENT_AVERAGED : ELEMENT_LINEAR, &e) &&
               exact(&table.material, y);
-    equilibrium_problem problem = {
-        .mesh = &m, .attach = &a, .materials = &table, .material_count = 1, .average_volume = row.average};
+    equilibrium_problem problem = {.mesh = &m, .attach = &a, .materials = &table, .material_count = 1};
     for (int s = 0; s < SEGMENT_COUNT; s++) problem.motion[s] = rigid_identity();
     problem.motion[SEGMENT_MAXILLA] = rigid_rotation((double[3]){0}, (double[]){0, 0, 1}, turn);
     solve_params params = solve_params_default();

@@ -1,17 +1,65 @@
 #include "sim/src/average.h"
 #include "geometry/mem.h"
-#include "geometry/vec.h"
+#include "geometry/parallel.h"
+#include "sim/src/assemble_parts.h"
 #include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* The nodes of the tets around node v, ascending. */
-static int32_t ring_of(const int32_t *start, const int32_t *source, const int32_t *tet, int32_t v,
-                       int32_t *ring)
+/* Corner by corner; the patches of one node are a list. */
+static void make_patches(averages *g, const elements *el, int32_t node_count)
+{
+    int32_t *first = NEW_ARRAY(int32_t, node_count), room = node_count + 16;
+    int32_t *next = NEW_ARRAY(int32_t, room), *material_of = NEW_ARRAY(int32_t, room);
+    for (int32_t v = 0; v < node_count; v++) first[v] = -1;
+    for (int64_t i = 0; i < 4 * (int64_t)g->tet_count; i++) {
+        int32_t own = el->material[i / 4], p = first[g->tet[i]];
+        g->patch[i] = -1;
+        if (!(el->materials[own].averaged_kpa > 0)) continue;
+        while (p >= 0 && material_of[p] != own) p = next[p];
+        if (p < 0) {
+            p = g->patch_count++;
+            if (p == room) {
+                room *= 2;
+                next = GROW_ARRAY(int32_t, next, room);
+                material_of = GROW_ARRAY(int32_t, material_of, room);
+            }
+            material_of[p] = own;
+            next[p] = first[g->tet[i]];
+            first[g->tet[i]] = p;
+        }
+        g->patch[i] = p;
+    }
+    g->volume = NEW_ARRAY(double, g->patch_count);
+    g->pressure = NEW_ARRAY(double, g->patch_count);
+    g->kpa = NEW_ARRAY(double, g->patch_count);
+    for (int32_t p = 0; p < g->patch_count; p++) g->kpa[p] = el->materials[material_of[p]].averaged_kpa;
+    free(first);
+    free(next);
+    free(material_of);
+}
+
+static void list_corners(averages *g, const elements *el)
+{
+    g->start = NEW_ARRAY(int32_t, (size_t)g->patch_count + 2);
+    for (int64_t i = 0; i < 4 * (int64_t)g->tet_count; i++) {
+        if (g->patch[i] < 0) continue;
+        g->start[g->patch[i] + 2]++;
+        g->volume[g->patch[i]] += el->volume[i / 4] / 4;
+    }
+    for (int32_t p = 0; p < g->patch_count; p++) g->start[p + 2] += g->start[p + 1];
+    g->source = NEW_ARRAY(int32_t, g->start[g->patch_count + 1]);
+    for (int32_t i = 0; i < 4 * g->tet_count; i++)
+        if (g->patch[i] >= 0) g->source[g->start[g->patch[i] + 1]++] = i;
+}
+
+/* The nodes of the tets of patch p, ascending. */
+static int32_t ring_of(const averages *g, int32_t p, int32_t *ring)
 {
     int32_t count = 0;
-    for (int32_t k = start[v]; k < start[v + 1]; k++)
+    for (int32_t k = g->start[p]; k < g->start[p + 1]; k++)
         for (int c = 0; c < 4; c++) {
-            int32_t u = tet[4 * (size_t)(source[k] / 4) + c], at = count;
+            int32_t u = g->tet[4 * (size_t)(g->source[k] / 4) + c], at = count;
             while (at > 0 && ring[at - 1] >= u) at--;
             if (at < count && ring[at] == u) continue;
             for (int32_t i = count++; i > at; i--) ring[i] = ring[i - 1];
@@ -20,143 +68,144 @@ static int32_t ring_of(const int32_t *start, const int32_t *source, const int32_
     return count;
 }
 
-int32_t average_couplings(const tetmesh *m, int32_t **pairs)
+static void list_rings(averages *g)
 {
-    int32_t *start = NEW_ARRAY(int32_t, (size_t)m->vertex_count + 2),
-            *source = NEW_ARRAY(int32_t, 4 * (size_t)m->tet_count);
-    for (int64_t i = 0; i < 4 * (int64_t)m->tet_count; i++) start[m->tet[i] + 2]++;
-    for (int32_t v = 0; v < m->vertex_count; v++) start[v + 2] += start[v + 1];
-    for (int32_t i = 0; i < 4 * m->tet_count; i++) source[start[m->tet[i] + 1]++] = i;
-    int32_t count = 0, room = 0, ring_room = 0;
-    for (int32_t v = 0; v < m->vertex_count; v++)
-        if (4 * (start[v + 1] - start[v]) > ring_room) ring_room = 4 * (start[v + 1] - start[v]);
-    int32_t *ring = NEW_ARRAY(int32_t, ring_room), *out = NEW_ARRAY(int32_t, 0);
-    for (int32_t v = 0; v < m->vertex_count; v++) {
-        int32_t n = ring_of(start, source, m->tet, v, ring);
-        if (count + n * (n - 1) / 2 > room) {
-            room = 2 * room + n * n;
-            out = GROW_ARRAY(int32_t, out, 2 * (size_t)room);
-        }
-        for (int32_t i = 0; i < n; i++)
-            for (int32_t j = i + 1; j < n; j++, count++) {
-                out[2 * (size_t)count] = ring[i];
-                out[2 * (size_t)count + 1] = ring[j];
-            }
+    g->ring_start = NEW_ARRAY(int32_t, (size_t)g->patch_count + 1);
+    g->ring = NEW_ARRAY(int32_t, 4 * (size_t)g->start[g->patch_count]);
+    for (int32_t p = 0; p < g->patch_count; p++) {
+        int64_t n = ring_of(g, p, g->ring + g->ring_start[p]);
+        g->ring_start[p + 1] = g->ring_start[p] + (int32_t)n;
+        g->pair_count += n * (n + 1) / 2;
     }
-    free(start);
-    free(source);
-    free(ring);
-    *pairs = out;
-    return count;
+    g->ring = GROW_ARRAY(int32_t, g->ring, g->ring_start[g->patch_count]);
+    g->slope = NEW_ARRAY(double, 3 * (size_t)g->ring_start[g->patch_count]);
+    g->pair = NEW_ARRAY(int32_t, 2 * (size_t)g->pair_count);
+    int32_t *pair = g->pair;
+    for (int32_t p = 0; p < g->patch_count; p++)
+        for (int32_t i = g->ring_start[p]; i < g->ring_start[p + 1]; i++)
+            for (int32_t j = i; j < g->ring_start[p + 1]; j++) {
+                *pair++ = i;
+                *pair++ = j;
+            }
 }
 
-bool average_make(assembly *a, err *e)
+averages *average_make(const tetmesh *m, const elements *el)
 {
-    if (a->el.material_count != 1)
-        return err_set(e, ERR_INPUT, "averaged volume changes need one material, got %d",
-                       a->el.material_count);
-    material *m = &a->el.materials[0];
-    if (m->model != MATERIAL_SNH_LOG && m->model != MATERIAL_SNH)
-        return err_set(e, ERR_INPUT, "averaged volume changes need snhlog or snh, got %s",
-                       material_model_name(m->model));
-    a->average_lambda_kpa = m->lambda_kpa;
-    m->lambda_kpa = 0;
-    a->node_volume = NEW_ARRAY(double, a->node_count);
-    a->node_pressure = NEW_ARRAY(double, a->node_count);
-    for (int32_t t = 0; t < a->tet_count; t++)
-        for (int k = 0; k < 4; k++) a->node_volume[a->tet[4 * (size_t)t + k]] += a->el.volume[t] / 4;
-    return true;
+    bool any = false;
+    for (int32_t k = 0; k < el->material_count; k++) {
+        const struct material *law = &el->materials[k];
+        assert(!(law->averaged_kpa > 0) || law->model == MATERIAL_SNH_LOG || law->model == MATERIAL_SNH);
+        any = any || law->averaged_kpa > 0;
+    }
+    if (!any) return NULL;
+    averages *g = NEW_ARRAY(averages, 1);
+    *g = (averages){.tet_count = m->tet_count,
+                    .tet = m->tet,
+                    .patch = NEW_ARRAY(int32_t, 4 * (size_t)m->tet_count),
+                    .change = NEW_ARRAY(double, m->tet_count)};
+    make_patches(g, el, m->vertex_count);
+    list_corners(g, el);
+    list_rings(g);
+    return g;
 }
 
-void average_free(assembly *a)
+void average_free(averages *g)
 {
-    free(a->node_volume);
-    free(a->node_pressure);
+    if (!g) return;
+    void *all[] = {g->patch,    g->start,      g->source, g->volume, g->kpa, g->change,
+                   g->pressure, g->ring_start, g->ring,   g->slope,  g->pair};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
+    free(g);
 }
 
-static void gradient_at(const assembly *a, int64_t t, const double *x, double F[9])
+typedef struct average_job {
+    averages *g;
+    const elements *el;
+    const double *x;
+} average_job;
+
+static void gradient_at(const average_job *job, int64_t t, double F[9])
 {
     double x_e[12];
-    for (int k = 0; k < 4; k++) vec_copy(x + 3 * (size_t)a->tet[4 * t + k], x_e + 3 * k);
-    element_gradient_F(a->el.gradient + 12 * t, x_e, F);
+    element_nodes(job->g->tet, t, job->x, x_e);
+    element_gradient_F(job->el->gradient + 12 * t, x_e, F);
 }
 
-double average_energy(assembly *a, const double *x)
+static void change_body(int64_t begin, int64_t end, void *context)
 {
-    double sum = 0;
-    for (int32_t v = 0; v < a->node_count; v++) a->node_pressure[v] = 0;
-    for (int32_t t = 0; t < a->tet_count; t++) {
+    const average_job *job = context;
+    for (int64_t t = begin; t < end; t++) {
         double F[9];
-        gradient_at(a, t, x, F);
-        double part = a->el.volume[t] / 4 * (mat_det(F) - 1);
-        for (int k = 0; k < 4; k++) a->node_pressure[a->tet[4 * (size_t)t + k]] += part;
+        if (job->g->patch[4 * t] < 0) continue;
+        gradient_at(job, t, F);
+        job->g->change[t] = job->el->volume[t] / 4 * (mat_det(F) - 1);
     }
-    for (int32_t v = 0; v < a->node_count; v++) {
-        double change = a->node_pressure[v] / a->node_volume[v];
-        a->node_pressure[v] = a->average_lambda_kpa * change;
-        sum += a->node_volume[v] * a->average_lambda_kpa / 2 * change * change;
+}
+
+static void pressure_body(int64_t begin, int64_t end, void *context)
+{
+    const average_job *job = context;
+    averages *g = job->g;
+    for (int64_t p = begin; p < end; p++) {
+        double sum = 0;
+        for (int32_t k = g->start[p]; k < g->start[p + 1]; k++) sum += g->change[g->source[k] / 4];
+        g->pressure[p] = g->kpa[p] * sum / g->volume[p];
     }
+}
+
+double average_update(averages *g, const elements *el, const double *x)
+{
+    average_job job = {g, el, x};
+    double sum = 0;
+    parallel_for(g->tet_count, ELEMENT_GRAIN, change_body, &job);
+    parallel_for(g->patch_count, NODE_GRAIN, pressure_body, &job);
+    for (int32_t p = 0; p < g->patch_count; p++)
+        sum += g->volume[p] / (2 * g->kpa[p]) * g->pressure[p] * g->pressure[p];
     return sum;
 }
 
-material average_material(const assembly *a, int64_t t)
+material average_material(const averages *g, const elements *el, int64_t t)
 {
-    material m = a->el.materials[0];
-    for (int k = 0; k < 4; k++) m.pressure_kpa += a->node_pressure[a->tet[4 * t + k]] / 4;
+    material m = el->materials[el->material[t]];
+    m.lambda_kpa -= m.averaged_kpa;
+    for (int k = 0; k < 4 && g->patch[4 * t] >= 0; k++)
+        m.pressure_kpa += g->pressure[g->patch[4 * t + k]] / 4;
     return m;
 }
 
-static int32_t find_edge(const assembly *a, int32_t low, int32_t high)
+static void slope_body(int64_t begin, int64_t end, void *context)
 {
-    int32_t from = 0, to = a->edge_count - 1;
-    while (from < to) {
-        int32_t mid = from + (to - from) / 2, u = a->edge_node[2 * (size_t)mid];
-        if (u < low || (u == low && a->edge_node[2 * (size_t)mid + 1] < high))
-            from = mid + 1;
-        else
-            to = mid;
-    }
-    assert(a->edge_node[2 * (size_t)from] == low && a->edge_node[2 * (size_t)from + 1] == high);
-    return from;
-}
-
-void average_stiffness(assembly *a, const double *x)
-{
-    double *slope = NEW_ARRAY(double, 12 * (size_t)a->tet_count); /* d(V_e/4 J_e) / dx of its nodes */
-    int32_t room = 0;
-    for (int32_t t = 0; t < a->tet_count; t++) {
-        double F[9], C[9];
-        gradient_at(a, t, x, F);
-        material_cofactor(F, C);
-        for (int k = 0; k < 4; k++) {
-            double *s = slope + 12 * (size_t)t + 3 * k;
-            mat_apply(C, a->el.gradient + 12 * (size_t)t + 3 * k, s);
-            vec_scale(s, a->el.volume[t] / 4, s);
+    const average_job *job = context;
+    averages *g = job->g;
+    for (int64_t p = begin; p < end; p++) {
+        const int32_t *ring = g->ring + g->ring_start[p];
+        double *slope = g->slope + 3 * (size_t)g->ring_start[p], scale = sqrt(g->kpa[p] / g->volume[p]) / 4;
+        memset(slope, 0, 3 * (size_t)(g->ring_start[p + 1] - g->ring_start[p]) * sizeof *slope);
+        for (int32_t k = g->start[p]; k < g->start[p + 1]; k++) {
+            int64_t t = g->source[k] / 4;
+            double F[9], C[9], s[3];
+            gradient_at(job, t, F);
+            material_cofactor(F, C);
+            for (int c = 0; c < 4; c++) {
+                int32_t i = 0;
+                while (ring[i] != g->tet[4 * t + c]) i++;
+                mat_apply(C, job->el->gradient + 12 * t + 3 * c, s);
+                vec_axpy(slope + 3 * i, scale * job->el->volume[t], s, slope + 3 * i);
+            }
         }
     }
-    for (int32_t v = 0; v < a->node_count; v++)
-        if (4 * (a->node_start[v + 1] - a->node_start[v]) > room)
-            room = 4 * (a->node_start[v + 1] - a->node_start[v]);
-    int32_t *ring = NEW_ARRAY(int32_t, room);
-    double *g = NEW_ARRAY(double, 3 * (size_t)room);
-    for (int32_t v = 0; v < a->node_count; v++) {
-        int32_t n = ring_of(a->node_start, a->node_source, a->tet, v, ring);
-        for (int32_t i = 0; i < 3 * n; i++) g[i] = 0;
-        for (int32_t k = a->node_start[v]; k < a->node_start[v + 1]; k++)
-            for (int c = 0; c < 4; c++) {
-                int64_t corner = 4 * (int64_t)(a->node_source[k] / 4) + c;
-                int32_t i = 0;
-                while (ring[i] != a->tet[corner]) i++;
-                vec_add(g + 3 * i, slope + 3 * corner, g + 3 * i);
-            }
-        double scale = a->average_lambda_kpa / a->node_volume[v];
-        for (int32_t i = 0; i < n; i++)
-            for (int32_t j = i; j < n; j++) {
-                double *block = a->edge_block + 9 * (size_t)find_edge(a, ring[i], ring[j]);
-                for (int c = 0; c < 9; c++) block[c] += scale * g[3 * i + c / 3] * g[3 * j + c % 3];
-            }
-    }
-    free(slope);
-    free(ring);
-    free(g);
+}
+
+void average_slopes(averages *g, const elements *el, const double *x)
+{
+    average_job job = {g, el, x};
+    parallel_for(g->patch_count, NODE_GRAIN, slope_body, &job);
+}
+
+void average_add(const averages *g, int64_t pair, double block[9])
+{
+    const double *low = g->slope + 3 * (size_t)g->pair[2 * pair],
+                 *high = g->slope + 3 * (size_t)g->pair[2 * pair + 1];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) block[3 * i + j] += low[i] * high[j];
 }

@@ -8,6 +8,23 @@
 const int element_pair[ELEMENT_PAIRS][2] = {{0, 0}, {0, 1}, {0, 2}, {0, 3}, {1, 1},
                                             {1, 2}, {1, 3}, {2, 2}, {2, 3}, {3, 3}};
 
+const double element_average_from = 0.48, element_keeps = 0.4;
+
+bool element_choose(material *m, element_kind kind, err *e)
+{
+    bool able = m->model == MATERIAL_SNH_LOG || m->model == MATERIAL_SNH;
+    assert(kind == ELEMENT_AUTO || kind == ELEMENT_LINEAR || kind == ELEMENT_AVERAGED);
+    if (kind == ELEMENT_AVERAGED && !able)
+        return err_set(e, ERR_INPUT, "averaged volume changes need snhlog or snh, got %s",
+                       material_model_name(m->model));
+    bool average =
+        kind == ELEMENT_AVERAGED || (kind == ELEMENT_AUTO && able && m->poisson >= element_average_from);
+    double twice_mu = m->young_kpa / (1 + m->poisson), own = m->poisson / (1 - 2 * m->poisson),
+           kept = element_keeps / (1 - 2 * element_keeps);
+    m->averaged_kpa = average ? twice_mu * fmax(0, own - kept) : 0;
+    return true;
+}
+
 static int32_t find_region(const region_material *table, int32_t count, int32_t region)
 {
     int32_t any = -1;

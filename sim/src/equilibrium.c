@@ -1,7 +1,6 @@
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include "sim/motion.h"
-#include "sim/src/average.h"
 #include "sim/src/clock.h"
 #include "sim/src/descent.h"
 #include <assert.h>
@@ -99,14 +98,9 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     t->blas_threads = blas_threads;
     bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e);
     if (ok && problem->contact) ok = make_contact(t, problem, e);
-    int32_t touching = t->touch ? t->touch->coupling_count : 0, count = 0, *pairs = NULL;
-    if (ok && problem->average_volume) count = average_couplings(t->mesh, &pairs);
-    pairs = GROW_ARRAY(int32_t, pairs, 2 * ((size_t)count + (size_t)touching));
-    if (touching) memcpy(pairs + 2 * (size_t)count, t->touch->coupling, 2 * (size_t)touching * sizeof *pairs);
     ok = ok && boundary_make(t->mesh, t->attach, &t->b, e) &&
-         assembly_make(t->mesh, &el, &t->b, pairs, count + touching, &t->a, e);
-    ok = ok && (!problem->average_volume || average_make(&t->a, e));
-    free(pairs);
+         assembly_make(t->mesh, &el, &t->b, t->touch ? t->touch->coupling : NULL,
+                       t->touch ? t->touch->coupling_count : 0, &t->a, e);
     elements_free(&el);
     if (!ok) {
         solver_destroy(&t);

@@ -1,16 +1,14 @@
 /* manufactured: a body whose exact large deformation is known, because the forces in it are chosen so (method
  * of manufactured solutions): u(X) on the cube of 10 mm, its whole surface prescribed. */
 #pragma once
-#include "tests/check.h"
-#include "sim/src/descent.h"
-#include "tests/physics/block.h"
+#include "tests/physics/loaded.h"
 #include <string.h>
 
 enum { MANUFACTURED_MM = 10 };
 
 static inline void manufactured_u(const double X[3], double u[3])
 {
-    double k = 3.14159265358979 / MANUFACTURED_MM, a = 0.5;
+    double k = 3.14159265358979 / (2 * MANUFACTURED_MM), a = 1;
     u[0] = a * sin(k * X[1]) * cos(k * X[2]) + 0.4 * a * sin(k * X[0]);
     u[1] = a * cos(2 * k * X[0]) * sin(k * X[2]);
     u[2] = a * sin(k * (X[0] + X[1])) - 0.3 * a * cos(k * X[2]);
@@ -46,28 +44,39 @@ static inline void manufactured_force(const material *m, const double X[3], doub
     }
 }
 
-/* Four points of degree 2: point q has the weight `far` at corner q and `near` at the others. */
-static inline void quadrature_point(const tetmesh *m, int32_t t, int q, double N[4], double X[3])
+enum { QUADRATURE = 14 };
+
+/* Degree 5: Walkington, Quadrature on simplices of arbitrary dimension, 2000. N: barycentric coordinates of
+ * point q in tet t; returns the weight, of 1 in all. */
+static inline double quadrature_point(const tetmesh *m, int32_t t, int q, double N[4], double X[3])
 {
-    static const double far = 0.585410196624968, near = 0.138196601125011;
-    X[0] = X[1] = X[2] = 0;
+    static const double near[2] = {0.31088591926330060980, 0.09273525031089122640},
+                        edge = 0.45449629587435035051,
+                        weight[3] = {0.11268792571801585080, 0.07349304311636194955, 0.04254602077708146643};
+    static const int pair[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
     for (int k = 0; k < 4; k++) {
-        N[k] = k == q ? far : near;
-        vec_axpy(X, N[k], m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + k], X);
+        if (q < 8)
+            N[k] = q % 4 == k ? 1 - 3 * near[q / 4] : near[q / 4];
+        else
+            N[k] = pair[q - 8][0] == k || pair[q - 8][1] == k ? 0.5 - edge : edge;
     }
+    X[0] = X[1] = X[2] = 0;
+    for (int k = 0; k < 4; k++) vec_axpy(X, N[k], m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + (size_t)k], X);
+    return weight[q / 4 < 2 ? q / 4 : 2];
 }
 
 /* Error of the displacement in L2 over the root of the volume, mm. cells: along an edge of the cube. */
-static inline double manufactured_error(int cells, double poisson, bool average, int *iterations)
+static inline double manufactured_error(int cells, double poisson, element_kind kind, int *iterations)
 {
     err e = {0};
     block b = {cells, cells, cells, {MANUFACTURED_MM, MANUFACTURED_MM, MANUFACTURED_MM}, 6, 0};
     tetmesh m = block_mesh(&b);
     attach_map a = attach_map_new(m.vertex_count, 0);
     size_t n = 3 * (size_t)m.vertex_count;
-    double *x = NEW_ARRAY(double, n), *load = NEW_ARRAY(double, n), *f = NEW_ARRAY(double, n);
+    double *x = NEW_ARRAY(double, n), *load = NEW_ARRAY(double, n);
     region_material table = {REGION_ANY, {0}};
     assert_ok(material_make(MATERIAL_SNH_LOG, 15, poisson, &table.material, &e));
+    assert_ok(element_choose(&table.material, kind, &e));
     for (int32_t v = 0; v < m.vertex_count; v++) {
         double *X = m.xyz + 3 * (size_t)v, u[3];
         bool outside = false;
@@ -76,58 +85,32 @@ static inline double manufactured_error(int cells, double poisson, bool average,
         manufactured_u(X, u);
         vec_add(X, u, x + 3 * (size_t)v); /* where it ought to be: the boundary, and the first guess inside */
     }
-    equilibrium_problem p = {
-        .mesh = &m, .attach = &a, .materials = &table, .material_count = 1, .average_volume = average};
+    equilibrium_problem p = {.mesh = &m, .attach = &a, .materials = &table, .material_count = 1};
     solver *t = NULL;
     assert_ok(solver_create(&p, 1, &t, &e));
-    assert_ok(solver_order(t, &e));
     for (int32_t i = 0; i < m.tet_count; i++)
-        for (int q = 0; q < 4; q++) {
-            double N[4], X[3], force[3];
-            quadrature_point(&m, i, q, N, X);
+        for (int q = 0; q < QUADRATURE; q++) {
+            double N[4], X[3], force[3], weight = t->a.el.volume[i] * quadrature_point(&m, i, q, N, X);
             manufactured_force(&table.material, X, force);
             for (int k = 0; k < 4; k++) {
                 double *to = load + 3 * (size_t)m.tet[4 * (size_t)i + k];
-                vec_axpy(to, N[k] * t->a.el.volume[i] / 4, force, to);
+                vec_axpy(to, N[k] * weight, force, to);
             }
         }
     memcpy(t->b.origin, x, n * sizeof *x); /* unknowns are what is added to the guess */
-    double *z = NEW_ARRAY(double, t->b.unknown_count), *g = NEW_ARRAY(double, t->b.unknown_count);
-    double first = 0, now = 0;
-    for (*iterations = 0; *iterations < 20; ++*iterations) {
-        bool positive;
-        boundary_place(&t->b, z, x);
-        assembly_energy(&t->a, x, f);
-        for (size_t i = 0; i < n; i++) f[i] -= load[i];
-        boundary_reduce(&t->b, f, g);
-        now = 0;
-        for (int32_t i = 0; i < t->b.unknown_count; i++) now += g[i] * g[i];
-        if (*iterations == 0) first = now;
-        if (now <= 1e-20 * first) break;
-        assembly_stiffness(&t->a, x, PROJECTION_NONE);
-        assembly_matrix(&t->a, &t->b);
-        assert_ok(linear_factor(t->l, t->a.value, 0, &positive, &e));
-        assert_true(positive);
-        assert_ok(linear_solve(t->l, g, g, &e));
-        for (int32_t i = 0; i < t->b.unknown_count; i++) z[i] -= g[i];
-    }
-    assert_true(now <= 1e-20 * first);
+    *iterations = loaded_solve(t, load, 1, x);
     double square = 0, volume = 0;
     for (int32_t i = 0; i < m.tet_count; i++)
-        for (int q = 0; q < 4; q++) {
-            double N[4], X[3], u[3], w[3];
-            quadrature_point(&m, i, q, N, X);
+        for (int q = 0; q < QUADRATURE; q++) {
+            double N[4], X[3], u[3], w[3], weight = t->a.el.volume[i] * quadrature_point(&m, i, q, N, X);
             manufactured_u(X, u);
             vec_add(X, u, w);
             for (int k = 0; k < 4; k++) vec_axpy(w, -N[k], x + 3 * (size_t)m.tet[4 * (size_t)i + k], w);
-            square += t->a.el.volume[i] / 4 * vec_dot(w, w);
-            volume += t->a.el.volume[i] / 4;
+            square += weight * vec_dot(w, w);
+            volume += weight;
         }
     free(x);
     free(load);
-    free(f);
-    free(z);
-    free(g);
     solver_destroy(&t);
     tetmesh_free(&m);
     attach_map_free(&a);
