@@ -46,7 +46,7 @@ static bool is_sagittal(const judge_cut *c)
     return c->contact == LIMIT_BSSO_CONTACT;
 }
 
-static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones, judge_cut *c, err *e)
+static void make_cut(judge *j, const struct cut_row *row, const cut_bones *bones, judge_cut *c)
 {
     const head_frame *f = &j->prepared->frame;
     *c = (judge_cut){.still = row->still, .moved = row->moved, .where = row->where, .gap = row->gap,
@@ -54,9 +54,9 @@ static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones
     c->face = cut_face_make(bones, row->moved, row->still, spacing_mm);
     c->back = cut_face_make(bones, row->still, row->moved, spacing_mm);
     c->there = c->face.count && c->back.count;
-    if (!c->there) return true;
-    if (!nearest_create(&c->face.shell, &c->face_tree, e) || !nearest_create(&c->back.shell, &c->back_tree, e))
-        return false;
+    if (!c->there) return;
+    c->face_tree = distance_tree_make(&c->face.shell);
+    c->back_tree = distance_tree_make(&c->back.shell);
     double forwards[3];
     vec_scale(f->posterior, -1, forwards);
     c->plate = cut_face_towards(&c->face, f->left, 0.5, true);
@@ -69,28 +69,25 @@ static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones
             c->place_count++;
     }
     cut_face_free(&buccal);
-    return true;
 }
 
-bool judge_bones_make(judge *j, err *e)
+void judge_bones_make(judge *j)
 {
     const segments *s = &j->prepared->segments;
     cut_bones bones = {.bones = s};
-    nearest *saw = NULL;
+    distance_tree *saw = distance_tree_make(&s->kerf);
     for (int i = 0; i < SEGMENT_COUNT; i++)
         if (j->body[i]) bones.part[i] = clash_body_tree(j->body[i]);
-    bool ok = !s->kerf.triangle_count || nearest_create(&s->kerf, &saw, e);
     bones.kerf = saw;
-    for (int i = 0; ok && i < JUDGE_CUTS; i++) ok = make_cut(j, &cut_rows[i], &bones, &j->cut[i], e);
-    nearest_destroy(&saw);
+    for (int i = 0; i < JUDGE_CUTS; i++) make_cut(j, &cut_rows[i], &bones, &j->cut[i]);
+    distance_tree_free(&saw);
     rigid rest = rigid_identity();
-    for (int i = 0; ok && i < JUDGE_PAIRS; i++) {
+    for (int i = 0; i < JUDGE_PAIRS; i++) {
         judge_pair *p = &j->pair[i];
         *p = pair_rows[i];
         if (j->body[p->still] && j->body[p->moved])
             p->rest_mm = clash_depth(j->body[p->still], j->body[p->moved], &rest, KIND_BONE).mm;
     }
-    return ok;
 }
 
 void judge_bones_free(judge *j)
@@ -100,8 +97,8 @@ void judge_bones_free(judge *j)
         cut_face_free(&c->face);
         cut_face_free(&c->back);
         cut_face_free(&c->plate);
-        nearest_destroy(&c->face_tree);
-        nearest_destroy(&c->back_tree);
+        distance_tree_free(&c->face_tree);
+        distance_tree_free(&c->back_tree);
     }
 }
 

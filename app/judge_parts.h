@@ -18,7 +18,7 @@ typedef struct judge_cut {
     bool there;
     cut_face face, back;         /* of the moved bone and of the still one */
     cut_face plate;              /* of `face`: what is in contact side by side; BSSO only */
-    nearest *face_tree, *back_tree;
+    distance_tree *face_tree, *back_tree;
     int place_count;
     judge_place place[CUT_PLACES_MAX];
 } judge_cut;
@@ -53,7 +53,7 @@ bool judge_relative(const plan_moves *m, segment_id still, segment_id moved, rig
 /* Which triangles of a bone are crowns [triangle_count]; NULL with a reason where it cannot be known. */
 uint8_t *judge_crowns(const prepared *p, segment_id bone, const char **why);
 /* Needs the bodies. */
-bool judge_bones_make(judge *j, err *e) MUST_CHECK;
+void judge_bones_make(judge *j);
 void judge_bones_free(judge *j);
 void judge_teeth_make(judge *j);
 void judge_nerve_make(judge *j);

@@ -18,8 +18,6 @@ void solid_grid_free(solid_grid **g); /* idempotent */
 bool solid_grid_inside(const solid_grid *g, const double p[3]);
 /* The surface is at least this far from p, mm; 0 near it. Cheap. */
 double solid_grid_clear(const solid_grid *g, const double p[3]);
-/* The surface is within reach_mm of p; meant for a reach of about a step. */
-bool solid_grid_touches(const solid_grid *g, const double p[3], double reach_mm);
 
 #ifdef __cplusplus
 }

@@ -19,7 +19,7 @@ struct clash_body {
     uint8_t *kind; /* NULL: all 1 */
     clash_params params;
     solid_grid *grid;
-    nearest *tree;
+    distance_tree *tree;
     int32_t *order;
     patch *patches;
     int32_t patch_count;
@@ -96,10 +96,11 @@ bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *
     b->s = s;
     b->params = *p;
     b->kind = kind ? COPY_ARRAY(uint8_t, kind, s->triangle_count) : NULL;
-    if (!nearest_create(s, &b->tree, e) || !solid_grid_make(s, p->step_mm, p->box, &b->grid, e)) {
+    if (!solid_grid_make(s, p->step_mm, p->box, &b->grid, e)) {
         clash_body_free(&b);
         return false;
     }
+    b->tree = distance_tree_make(s);
     make_patches(b);
     if (p->cell_mm > 0) b->cells = bone_cells_make(s, b->grid, p->cell_mm);
     b->params.box = NULL; /* borrowed for the making only */
@@ -110,7 +111,7 @@ bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *
 void clash_body_free(clash_body **b)
 {
     if (!*b) return;
-    nearest_destroy(&(*b)->tree);
+    distance_tree_free(&(*b)->tree);
     solid_grid_free(&(*b)->grid);
     bone_cells_free(&(*b)->cells);
     free((*b)->kind);
@@ -125,7 +126,7 @@ const solid_grid *clash_body_grid(const clash_body *b)
     return b->grid;
 }
 
-const nearest *clash_body_tree(const clash_body *b)
+const distance_tree *clash_body_tree(const clash_body *b)
 {
     return b->tree;
 }
@@ -135,11 +136,13 @@ double clash_volume(const clash_body *still, const clash_body *moved, const rigi
     return bone_cells_inside(&moved->cells, still->grid, rel);
 }
 
-/* ---- depth and distance: branch and bound, because neither changes faster than the point moves. Where both surfaces
- * run side by side nothing is bounded away, so that the search ends at small triangles: the extremes of flat facets lie at
- * corners, which are tried, and between tried points of a curved one the error is of second order. ---- */
+/* ---- depth and distance: branch and bound, because neither changes faster than the point moves. Where both
+ * surfaces run side by side nothing is bounded away, so that the search ends at small triangles: the extremes
+ * of flat facets lie at corners, which are tried, and between tried points of a curved one the error is of
+ * second order. ---- */
 
-static const double small_mm = 0.7, settled_mm = 1, near_mm = 1.5, finest_distance_mm = 0.05, finest_share = 0.3;
+static const double small_mm = 0.7, settled_mm = 1, near_mm = 1.5, finest_distance_mm = 0.05,
+                    finest_share = 0.3;
 
 typedef struct hunt {
     const clash_body *other;
@@ -171,42 +174,58 @@ static bool is_inside(const hunt *h, const double p[3])
     return solid_grid_inside(h->other->grid, p);
 }
 
-/* Depth (negative outside) or distance (0 inside) of one point, kept if it is the best. */
-static double try_point(hunt *h, const double p[3])
+static void try_point(hunt *h, const double p[3])
 {
     bool inside = is_inside(h, p);
-    if (h->depth && inside && h->best > 0 && h->best < near_mm && solid_grid_touches(h->other->grid, p, h->best))
-        return h->best; /* at most */
-    double d = inside && !h->depth ? 0 : nearest_point(h->other->tree, p, NULL, NULL);
-    if (h->depth && !inside) d = -d;
-    keep_best(h, d, p);
-    return d;
+    if (h->depth && inside)
+        keep_best(h, distance_tree_between(h->other->tree, p, h->best, HUGE_VAL, NULL), p);
+    else if (!h->depth)
+        keep_best(h, inside ? 0 : distance_tree_between(h->other->tree, p, 0, h->best, NULL), p);
+}
+
+/* Tries the middle of a piece; false if no point within this radius of it can better the best. d: its
+ * distance, where it is the least distance that is looked for. */
+static bool try_middle(hunt *h, const double p[3], double radius, double *d)
+{
+    const double tolerance = h->other->params.tolerance_mm;
+    const distance_tree *tree = h->other->tree;
+    bool inside = is_inside(h, p);
+    if (!h->depth) {
+        *d = inside ? 0 : distance_tree_between(tree, p, 0, h->best + fmax(radius - tolerance, 0), NULL);
+        keep_best(h, *d, p);
+        return *d - radius < h->best - tolerance;
+    }
+    if (!inside) return distance_tree_within(tree, p, radius - h->best - tolerance);
+    if (h->best > 0 && h->best < near_mm)
+        *d = fmax(h->best, distance_tree_between(tree, p, h->best, HUGE_VAL, NULL));
+    else
+        *d = distance_tree_between(tree, p, h->best - fmax(radius - tolerance, 0), HUGE_VAL, NULL);
+    keep_best(h, *d, p);
+    return *d + radius > h->best + tolerance;
 }
 
 static void split(hunt *h, double x[3][3], int level)
 {
-    double middle[3], radius = 0, tolerance = h->other->params.tolerance_mm;
+    double middle[3], radius = 0, d = 0;
     for (int c = 0; c < 3; c++) middle[c] = (x[0][c] + x[1][c] + x[2][c]) / 3;
     for (int k = 0; k < 3; k++) radius = fmax(radius, vec_distance(middle, x[k]));
     if (hopeless(h, middle, radius)) return;
-    if (h->depth && radius <= fmax(settled_mm, h->best) && !is_inside(h, middle)) { /* settled without distances */
-        if (radius <= h->best) return;
-        for (int k = 0; k < 3; k++)
-            if (is_inside(h, x[k])) (void)try_point(h, x[k]);
+    if (h->depth && radius <= fmax(settled_mm, h->best) &&
+        !is_inside(h, middle)) { /* settled without distances */
+        for (int k = 0; k < 3 && radius > h->best; k++) try_point(h, x[k]);
         return;
     }
-    double d = try_point(h, middle);
-    if (h->depth ? d + radius <= h->best + tolerance : d - radius >= h->best - tolerance) return;
-    if (level == 0)
-        for (int k = 0; k < 3; k++) (void)try_point(h, x[k]);
+    if (!try_middle(h, middle, radius, &d)) return;
+    for (int k = 0; k < 3 && level == 0; k++) try_point(h, x[k]);
     double finest = h->depth ? small_mm : fmax(finest_distance_mm, finest_share * d);
     if (radius <= finest || level == SPLIT_DEPTH) return;
     double m[3][3]; /* middles of the edges */
     for (int k = 0; k < 3; k++) {
         for (int c = 0; c < 3; c++) m[k][c] = (x[k][c] + x[(k + 1) % 3][c]) / 2;
-        (void)try_point(h, m[k]);
+        try_point(h, m[k]);
     }
-    const double *part[4][3] = {{m[0], m[1], m[2]}, {x[0], m[0], m[2]}, {x[1], m[1], m[0]}, {x[2], m[2], m[1]}};
+    const double *part[4][3] = {
+        {m[0], m[1], m[2]}, {x[0], m[0], m[2]}, {x[1], m[1], m[0]}, {x[2], m[2], m[1]}};
     for (int i = 0; i < 4 && (h->depth || h->best > 0); i++) {
         double y[3][3];
         for (int k = 0; k < 3; k++) vec_copy(part[i][k], y[k]);
@@ -237,6 +256,17 @@ static void search_patch(hunt *h, const clash_body *own, const patch *p, unsigne
     }
 }
 
+/* Signed distance of a patch's centre (negative inside), exact where the patch can better the best. */
+static double least_signed(const hunt *h, const double p[3], double radius)
+{
+    const distance_tree *tree = h->other->tree;
+    double tolerance = h->other->params.tolerance_mm;
+    if (is_inside(h, p))
+        return -distance_tree_between(tree, p, h->depth ? h->best + tolerance - radius : 0, HUGE_VAL, NULL);
+    if (h->depth) return solid_grid_clear(h->other->grid, p); /* most patches, and little can be there */
+    return distance_tree_between(tree, p, 0, h->best + radius, NULL);
+}
+
 /* The most promising patches first, so that the rest need no look. */
 static void search(hunt *h, const clash_body *own, unsigned kinds)
 {
@@ -249,10 +279,7 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
         if (!(p->kinds & kinds)) continue;
         rigid_apply(&h->to_other, p->centre, centre);
         if (hopeless(h, centre, p->radius)) continue;
-        bool inside = is_inside(h, centre), rough = h->depth && !inside; /* most patches, and little can be there */
-        double d = rough ? solid_grid_clear(h->other->grid, centre) : nearest_point(h->other->tree, centre, NULL, NULL);
-        /* the signed distance that the patch may reach; of a depth it is negative */
-        list[count++] = (candidate){(inside ? -d : d) - p->radius, i};
+        list[count++] = (candidate){least_signed(h, centre, p->radius) - p->radius, i};
     }
     qsort(list, (size_t)count, sizeof *list, by_bound);
     for (int32_t i = 0; i < count; i++) {
