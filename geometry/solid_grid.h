@@ -18,6 +18,8 @@ void solid_grid_free(solid_grid **g); /* idempotent */
 bool solid_grid_inside(const solid_grid *g, const double p[3]);
 /* The surface is at least this far from p, mm; 0 near it. Cheap. */
 double solid_grid_clear(const solid_grid *g, const double p[3]);
+/* Both at once. */
+bool solid_grid_look(const solid_grid *g, const double p[3], double *clear);
 
 #ifdef __cplusplus
 }

@@ -4,14 +4,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef struct cube {
+    uint8_t away : 7;   /* cubes to the nearest one with triangles, in the maximum norm, at most FAR */
+    uint8_t inside : 1; /* of the cube's own point */
+} cube;
+
+enum { FAR = 127 };
+
+typedef struct grid_triangle {
+    double a[3], e1[3], e2[3];
+} grid_triangle;
+
 struct solid_grid {
     const surface *s;
     double low[3], step;
     int32_t n[3];
     int32_t *start; /* [cells + 1] into item */
     int32_t *item;  /* triangles that may meet the cube */
-    uint8_t *away;  /* cubes to the nearest one with triangles, in the maximum norm, at most 255 */
-    uint8_t *inside; /* of the cube's own point */
+    grid_triangle *triangle; /* in the order of the cubes: those of one lie together */
+    cube *cube;
 };
 
 /* Of the cube's own point, in cubes: off any plane that a surface may have. */
@@ -34,24 +45,30 @@ static bool within(const solid_grid *g, const int32_t i[3])
     return true;
 }
 
-/* Where the straight way from p by `way` crosses the triangle, as a share of it; false if it does not. */
-static bool crosses(const surface *s, int32_t t, const double p[3], const double way[3], double *share)
+static grid_triangle triangle_of(const surface *s, int32_t t)
 {
     const int32_t *v = s->tri + 3 * (size_t)t;
-    const double *a = s->xyz + 3 * (size_t)v[0];
-    double e1[3], e2[3], h[3], o[3], q[3];
-    vec_sub(s->xyz + 3 * (size_t)v[1], a, e1);
-    vec_sub(s->xyz + 3 * (size_t)v[2], a, e2);
-    vec_cross(way, e2, h);
-    double det = vec_dot(e1, h);
+    grid_triangle x;
+    vec_copy(s->xyz + 3 * (size_t)v[0], x.a);
+    vec_sub(s->xyz + 3 * (size_t)v[1], x.a, x.e1);
+    vec_sub(s->xyz + 3 * (size_t)v[2], x.a, x.e2);
+    return x;
+}
+
+/* Where the straight way from p by `way` crosses the triangle, as a share of it; false if it does not. */
+static bool crosses(const grid_triangle *t, const double p[3], const double way[3], double *share)
+{
+    double h[3], o[3], q[3];
+    vec_cross(way, t->e2, h);
+    double det = vec_dot(t->e1, h);
     if (det == 0) return false;
-    vec_sub(p, a, o);
+    vec_sub(p, t->a, o);
     double u = vec_dot(o, h) / det;
     if (!(u >= 0 && u <= 1)) return false;
-    vec_cross(o, e1, q);
+    vec_cross(o, t->e1, q);
     double w = vec_dot(way, q) / det;
     if (!(w >= 0 && u + w <= 1)) return false;
-    *share = vec_dot(e2, q) / det;
+    *share = vec_dot(t->e2, q) / det;
     return *share >= 0 && *share < 1;
 }
 
@@ -60,7 +77,7 @@ static int crossings(const solid_grid *g, size_t c, const double p[3], const dou
     int count = 0;
     double share;
     for (int32_t k = g->start[c]; k < g->start[c + 1]; k++)
-        count += crosses(g->s, g->item[k], p, way, &share) && share >= from && share < to;
+        count += crosses(&g->triangle[g->item[k]], p, way, &share) && share >= from && share < to;
     return count;
 }
 
@@ -92,13 +109,11 @@ static bool reach(const solid_grid *g, int32_t t, int32_t from[3], int32_t to[3]
 static void enter(solid_grid *g, int32_t t, int32_t *fill)
 {
     int32_t i[3], from[3], to[3];
-    const double *a = g->s->xyz + 3 * (size_t)g->s->tri[3 * (size_t)t];
-    double e1[3], e2[3], n[3];
+    const grid_triangle x = triangle_of(g->s, t);
+    double n[3];
     if (!reach(g, t, from, to)) return;
-    vec_sub(g->s->xyz + 3 * (size_t)g->s->tri[3 * (size_t)t + 1], a, e1);
-    vec_sub(g->s->xyz + 3 * (size_t)g->s->tri[3 * (size_t)t + 2], a, e2);
-    vec_cross(e1, e2, n);
-    const double half = (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * g->step / 2 * (1 + 1e-9), level = vec_dot(n, a);
+    vec_cross(x.e1, x.e2, n);
+    const double half = (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * g->step / 2 * (1 + 1e-9), level = vec_dot(n, x.a);
     for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
         for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
             for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
@@ -124,6 +139,23 @@ static void sort_triangles(solid_grid *g, size_t cells)
     free(fill);
 }
 
+/* From here on items number the copies. */
+static void copy_triangles(solid_grid *g, size_t cells)
+{
+    int32_t *number = NEW_ARRAY(int32_t, g->s->triangle_count), count = 0;
+    g->triangle = NEW_ARRAY(grid_triangle, g->s->triangle_count);
+    for (int32_t k = 0; k < g->start[cells]; k++) {
+        int32_t t = g->item[k];
+        if (!number[t]) {
+            g->triangle[count] = triangle_of(g->s, t);
+            number[t] = ++count;
+        }
+        g->item[k] = number[t] - 1;
+    }
+    g->triangle = GROW_ARRAY(grid_triangle, g->triangle, count + 1);
+    free(number);
+}
+
 /* Distances to full cubes, by two sweeps over half of the neighbours each. */
 static void sweep(solid_grid *g, int way)
 {
@@ -141,17 +173,17 @@ static void sweep(solid_grid *g, int way)
                 i[2] = way > 0 ? a : g->n[2] - 1 - a;
                 i[1] = way > 0 ? b : g->n[1] - 1 - b;
                 i[0] = way > 0 ? c : g->n[0] - 1 - c;
-                uint8_t *at = g->away + cell(g, i);
-                int least = *at;
+                cube *at = g->cube + cell(g, i);
+                int least = at->away;
                 if (!least) continue;
                 bool edge = a == 0 || b == 0 || c == 0 || a == g->n[2] - 1 || b == g->n[1] - 1 || c == g->n[0] - 1;
                 for (int d = 0; d < 13; d++) {
                     const int32_t k[3] = {i[0] + offset[d][0], i[1] + offset[d][1], i[2] + offset[d][2]};
                     if (edge && !within(g, k)) continue;
-                    int beside = at[step[d]] + 1;
+                    int beside = at[step[d]].away + 1;
                     least = beside < least ? beside : least;
                 }
-                *at = (uint8_t)least;
+                at->away = (uint8_t)least & FAR;
             }
 }
 
@@ -165,6 +197,7 @@ static void start_rows(solid_grid *g)
 {
     int32_t i[3], from[3], to[3];
     for (int32_t t = 0; t < g->s->triangle_count; t++) {
+        const grid_triangle triangle = triangle_of(g->s, t);
         double x = HUGE_VAL, share;
         for (int k = 0; k < 3; k++) x = fmin(x, g->s->xyz[3 * (size_t)g->s->tri[3 * (size_t)t + (size_t)k]]);
         if (x > g->low[0] + g->step) continue;
@@ -175,7 +208,7 @@ static void start_rows(solid_grid *g)
             for (i[1] = from[1]; i[1] <= to[1]; i[1]++) {
                 double p[3];
                 own_of(g, i, p);
-                if (crosses(g->s, t, p, way, &share)) g->inside[cell(g, i)] ^= 1;
+                if (crosses(&triangle, p, way, &share)) g->cube[cell(g, i)].inside ^= 1;
             }
     }
 }
@@ -190,15 +223,15 @@ static bool find_inside(solid_grid *g, bool whole)
     for (i[2] = 0; i[2] < g->n[2]; i[2]++)
         for (i[1] = 0; i[1] < g->n[1]; i[1]++) {
             i[0] = 0;
-            int in = g->inside[cell(g, i)];
+            int in = g->cube[cell(g, i)].inside;
             for (; i[0] + 1 < g->n[0]; i[0]++) {
                 size_t c = cell(g, i);
-                if (!g->away[c] || !g->away[c + 1]) {
+                if (!g->cube[c].away || !g->cube[c + 1].away) {
                     double p[3];
                     own_of(g, i, p);
                     in ^= (crossings(g, c, p, way, 0, wall) + crossings(g, c + 1, p, way, wall, 1)) & 1;
                 }
-                g->inside[c + 1] = (uint8_t)in;
+                g->cube[c + 1].inside = in & 1;
             }
             if (in && whole) return false;
         }
@@ -226,9 +259,9 @@ bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_
         cells *= (size_t)g->n[c];
     }
     sort_triangles(g, cells);
-    g->away = NEW_ARRAY(uint8_t, cells);
-    g->inside = NEW_ARRAY(uint8_t, cells);
-    for (size_t c = 0; c < cells; c++) g->away[c] = g->start[c] == g->start[c + 1] ? 255 : 0;
+    copy_triangles(g, cells);
+    g->cube = NEW_ARRAY(cube, cells);
+    for (size_t c = 0; c < cells; c++) g->cube[c].away = g->start[c] == g->start[c + 1] ? FAR : 0;
     sweep(g, 1);
     sweep(g, -1);
     if (!find_inside(g, whole)) {
@@ -244,23 +277,46 @@ void solid_grid_free(solid_grid **g)
     if (!*g) return;
     free((*g)->start);
     free((*g)->item);
-    free((*g)->away);
-    free((*g)->inside);
+    free((*g)->triangle);
+    free((*g)->cube);
     free(*g);
     *g = NULL;
+}
+
+/* Its own point's side is known; a point of a cube with triangles is compared with that. */
+static bool same_side(const solid_grid *g, const int32_t i[3], size_t c, const double p[3])
+{
+    double own[3], way[3];
+    own_of(g, i, own);
+    vec_sub(own, p, way);
+    return !(crossings(g, c, p, way, 0, 1) & 1);
+}
+
+bool solid_grid_look(const solid_grid *g, const double p[3], double *clear)
+{
+    int32_t i[3];
+    locate(g, p, i);
+    if (!within(g, i)) {
+        double d[3];
+        for (int c = 0; c < 3; c++)
+            d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
+        *clear = vec_norm(d);
+        return false;
+    }
+    size_t c = cell(g, i);
+    const cube *k = &g->cube[c];
+    *clear = k->away > 1 ? (k->away - 1) * g->step : 0;
+    return k->away || same_side(g, i, c, p) ? k->inside : !k->inside;
 }
 
 bool solid_grid_inside(const solid_grid *g, const double p[3])
 {
     int32_t i[3];
-    double own[3], way[3];
     locate(g, p, i);
     if (!within(g, i)) return false;
     size_t c = cell(g, i);
-    if (g->away[c]) return g->inside[c];
-    own_of(g, i, own);
-    vec_sub(own, p, way);
-    return (crossings(g, c, p, way, 0, 1) & 1) != g->inside[c];
+    const cube *k = &g->cube[c];
+    return k->away || same_side(g, i, c, p) ? k->inside : !k->inside;
 }
 
 double solid_grid_clear(const solid_grid *g, const double p[3])
@@ -268,7 +324,7 @@ double solid_grid_clear(const solid_grid *g, const double p[3])
     int32_t i[3];
     locate(g, p, i);
     if (within(g, i)) {
-        int away = g->away[cell(g, i)];
+        int away = g->cube[cell(g, i)].away;
         return away > 1 ? (away - 1) * g->step : 0;
     }
     double d[3];
