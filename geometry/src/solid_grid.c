@@ -292,21 +292,11 @@ static bool same_side(const solid_grid *g, const int32_t i[3], size_t c, const d
     return !(crossings(g, c, p, way, 0, 1) & 1);
 }
 
-bool solid_grid_look(const solid_grid *g, const double p[3], double *clear)
+static double outside_box(const solid_grid *g, const double p[3])
 {
-    int32_t i[3];
-    locate(g, p, i);
-    if (!within(g, i)) {
-        double d[3];
-        for (int c = 0; c < 3; c++)
-            d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
-        *clear = vec_norm(d);
-        return false;
-    }
-    size_t c = cell(g, i);
-    const cube *k = &g->cube[c];
-    *clear = k->away > 1 ? (k->away - 1) * g->step : 0;
-    return k->away || same_side(g, i, c, p) ? k->inside : !k->inside;
+    double d[3];
+    for (int c = 0; c < 3; c++) d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
+    return vec_norm(d);
 }
 
 bool solid_grid_inside(const solid_grid *g, const double p[3])
@@ -315,20 +305,20 @@ bool solid_grid_inside(const solid_grid *g, const double p[3])
     locate(g, p, i);
     if (!within(g, i)) return false;
     size_t c = cell(g, i);
-    const cube *k = &g->cube[c];
-    return k->away || same_side(g, i, c, p) ? k->inside : !k->inside;
+    return (g->cube[c].away || same_side(g, i, c, p)) == g->cube[c].inside;
 }
 
 double solid_grid_clear(const solid_grid *g, const double p[3])
 {
     int32_t i[3];
     locate(g, p, i);
-    if (within(g, i)) {
-        int away = g->cube[cell(g, i)].away;
-        return away > 1 ? (away - 1) * g->step : 0;
-    }
-    double d[3];
-    for (int c = 0; c < 3; c++)
-        d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
-    return vec_norm(d);
+    if (!within(g, i)) return outside_box(g, p);
+    int away = g->cube[cell(g, i)].away;
+    return away > 1 ? (away - 1) * g->step : 0;
+}
+
+bool solid_grid_look(const solid_grid *g, const double p[3], double *clear)
+{
+    *clear = solid_grid_clear(g, p);
+    return solid_grid_inside(g, p);
 }
