@@ -3,11 +3,15 @@
 #include "geometry/vec.h"
 #include <stdlib.h>
 
-enum { LEAF = 4, BRANCH = -1 }; /* triangles of a leaf at most */
+enum { WAYS = 4, LEAF = 4, BRANCH = -1 }; /* children of a node, triangles of a leaf at most */
+
+/* Boxes are in single precision, about the surface's middle, and so much larger that rounding never makes one too far;
+ * `doubt` covers what is left for points far away. */
+static const double margin = 1e-6, doubt = 1e-5;
 
 typedef struct tree_node {
-    float low[3], high[3]; /* outwards of the true box */
-    int32_t first, count;  /* triangles; count BRANCH: the two nodes first and first + 1 */
+    float low[3][WAYS], high[3][WAYS];
+    int32_t first[WAYS], count[WAYS]; /* triangles; count BRANCH: the node `first` */
 } tree_node;
 
 typedef struct tree_triangle {
@@ -16,6 +20,7 @@ typedef struct tree_triangle {
 } tree_triangle;
 
 struct distance_tree {
+    double middle[3], size;
     tree_node *node;
     tree_triangle *triangle;
     int32_t node_count;
@@ -30,31 +35,36 @@ typedef struct making {
     double *middle; /* [3*triangle_count] */
 } making;
 
-static void close_node(making *m, tree_node *n, int32_t first, int32_t count)
+typedef struct range {
+    int32_t first, count;
+} range;
+
+static void set_box(making *m, tree_node *n, int way, range r)
 {
     for (int c = 0; c < 3; c++) {
         double low = HUGE_VAL, high = -HUGE_VAL;
-        for (int32_t i = first; i < first + count; i++)
+        for (int32_t i = r.first; i < r.first + r.count; i++)
             for (int k = 0; k < 3; k++) {
                 double x = m->s->xyz[3 * (size_t)m->s->tri[3 * (size_t)m->order[i] + (size_t)k] + (size_t)c];
-                low = fmin(low, x);
-                high = fmax(high, x);
+                low = x < low ? x : low;
+                high = x > high ? x : high;
             }
-        n->low[c] = nextafterf((float)low, -HUGE_VALF);
-        n->high[c] = nextafterf((float)high, HUGE_VALF);
+        n->low[c][way] = (float)(low - m->t->middle[c] - margin * m->t->size);
+        n->high[c][way] = (float)(high - m->t->middle[c] + margin * m->t->size);
     }
 }
 
-/* Puts those whose middles lie below the middle of the widest side first, and counts them. */
-static int32_t halve(making *m, int32_t first, int32_t count)
+/* Puts those whose middles lie below the middle of the widest side first: both parts. */
+static void halve(making *m, range r, range part[2])
 {
     int widest = 0;
     double at = 0, width = -1;
     for (int c = 0; c < 3; c++) {
         double low = HUGE_VAL, high = -HUGE_VAL;
-        for (int32_t i = first; i < first + count; i++) {
-            low = fmin(low, m->middle[3 * (size_t)m->order[i] + (size_t)c]);
-            high = fmax(high, m->middle[3 * (size_t)m->order[i] + (size_t)c]);
+        for (int32_t i = r.first; i < r.first + r.count; i++) {
+            double x = m->middle[3 * (size_t)m->order[i] + (size_t)c];
+            low = x < low ? x : low;
+            high = x > high ? x : high;
         }
         if (!(high - low > width)) continue;
         width = high - low;
@@ -62,30 +72,43 @@ static int32_t halve(making *m, int32_t first, int32_t count)
         widest = c;
     }
     int32_t below = 0;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t t = m->order[first + i];
+    for (int32_t i = r.first; i < r.first + r.count; i++) {
+        int32_t t = m->order[i];
         if (m->middle[3 * (size_t)t + (size_t)widest] >= at) continue;
-        m->order[first + i] = m->order[first + below];
-        m->order[first + below++] = t;
+        m->order[i] = m->order[r.first + below];
+        m->order[r.first + below++] = t;
     }
-    return below && below < count ? below : count / 2;
+    if (!below || below == r.count) below = r.count / 2; /* all at one place */
+    part[0] = (range){r.first, below};
+    part[1] = (range){r.first + below, r.count - below};
 }
 
-static void make_node(making *m, int32_t node, int32_t first, int32_t count)
+/* The node of these triangles; returns its number. */
+static int32_t make_node(making *m, range r)
 {
-    distance_tree *t = m->t;
-    close_node(m, &t->node[node], first, count);
-    if (count <= LEAF) {
-        t->node[node].first = first;
-        t->node[node].count = count;
-        return;
+    int32_t node = m->t->node_count++;
+    range half[2], way[WAYS] = {r};
+    if (r.count > LEAF) {
+        halve(m, r, half);
+        halve(m, half[0], way);
+        halve(m, half[1], way + 2);
     }
-    int32_t below = halve(m, first, count), child = t->node_count;
-    t->node[node].first = child;
-    t->node[node].count = BRANCH;
-    t->node_count += 2;
-    make_node(m, child, first, below);
-    make_node(m, child + 1, first + below, count - below);
+    for (int k = 0; k < WAYS; k++) {
+        bool leaf = way[k].count <= LEAF;
+        int32_t first = leaf ? way[k].first : make_node(m, way[k]);
+        set_box(m, &m->t->node[node], k, way[k]);
+        m->t->node[node].first[k] = first;
+        m->t->node[node].count[k] = leaf ? way[k].count : BRANCH;
+    }
+    return node;
+}
+
+static void find_size(distance_tree *t, const surface *s)
+{
+    double low[3], high[3];
+    surface_bounds(s, low, high);
+    for (int c = 0; c < 3; c++) t->middle[c] = (low[c] + high[c]) / 2;
+    t->size = vec_distance(low, high);
 }
 
 distance_tree *distance_tree_make(const surface *s)
@@ -94,16 +117,16 @@ distance_tree *distance_tree_make(const surface *s)
     distance_tree *t = NEW_ARRAY(distance_tree, 1);
     making m = {
         .s = s, .t = t, .order = NEW_ARRAY(int32_t, count), .middle = NEW_ARRAY(double, 3 * (size_t)count)};
-    t->node = NEW_ARRAY(tree_node, 2 * (size_t)count + 1);
+    t->node = NEW_ARRAY(tree_node, count + 1); /* each holds a triangle that no node below it holds alone */
     t->triangle = NEW_ARRAY(tree_triangle, count);
-    t->node_count = 1;
+    if (count) find_size(t, s);
     for (int32_t i = 0; i < count; i++) {
         m.order[i] = i;
         for (int k = 0; k < 3; k++)
             vec_axpy(m.middle + 3 * (size_t)i, 1 / 3.0,
                      s->xyz + 3 * (size_t)s->tri[3 * (size_t)i + (size_t)k], m.middle + 3 * (size_t)i);
     }
-    make_node(&m, 0, 0, count);
+    (void)make_node(&m, (range){0, count});
     t->node = GROW_ARRAY(tree_node, t->node, t->node_count);
     for (int32_t i = 0; i < count; i++) {
         const int32_t *v = s->tri + 3 * (size_t)m.order[i];
@@ -133,6 +156,7 @@ typedef struct question {
     const distance_tree *t;
     double p[3], low2, best2; /* squares; best2: of what is found so far, at first of what matters */
     bool settled;             /* not above low */
+    float at_tree[3]; /* p about the tree's middle */
     const tree_triangle *found;
     double at[3];
 } question;
@@ -169,28 +193,31 @@ static void try_triangle(question *q, const tree_triangle *t)
     vec_copy(near, q->at);
 }
 
-static double square_to_box(const tree_node *n, const double p[3])
+static void squares_to_boxes(const tree_node *n, const float p[3], float square[WAYS])
 {
-    double sum = 0;
-    for (int c = 0; c < 3; c++) {
-        double below = (double)n->low[c] - p[c], above = p[c] - (double)n->high[c], d = below > above ? below : above;
-        if (d > 0) sum += d * d;
-    }
-    return sum;
+    for (int k = 0; k < WAYS; k++) square[k] = 0;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < WAYS; k++) {
+            float below = n->low[c][k] - p[c], above = p[c] - n->high[c][k], d = below > above ? below : above;
+            d = d > 0 ? d : 0;
+            square[k] += d * d;
+        }
 }
 
+/* The nearer children first. */
 static void visit(question *q, const tree_node *n)
 {
-    if (n->count != BRANCH) {
-        for (int32_t i = n->first; i < n->first + n->count && !q->settled; i++)
+    float square[WAYS];
+    squares_to_boxes(n, q->at_tree, square);
+    for (int done = 0; done < WAYS && !q->settled; done++) {
+        int k = 0;
+        for (int i = 1; i < WAYS; i++) k = square[i] < square[k] ? i : k;
+        if (!((double)square[k] < q->best2 * (1 + doubt))) return;
+        square[k] = HUGE_VALF;
+        if (n->count[k] == BRANCH) visit(q, &q->t->node[n->first[k]]);
+        for (int32_t i = n->first[k]; i < n->first[k] + n->count[k] && !q->settled; i++)
             try_triangle(q, &q->t->triangle[i]);
-        return;
     }
-    const tree_node *child = &q->t->node[n->first];
-    double d[2] = {square_to_box(&child[0], q->p), square_to_box(&child[1], q->p)};
-    int nearer = d[1] < d[0];
-    if (d[nearer] < q->best2) visit(q, &child[nearer]);
-    if (d[!nearer] < q->best2 && !q->settled) visit(q, &child[!nearer]);
 }
 
 double distance_tree_between(const distance_tree *t, const double p[3], double low, double high,
@@ -198,7 +225,8 @@ double distance_tree_between(const distance_tree *t, const double p[3], double l
 {
     question q = {.t = t, .low2 = low > 0 ? low * low : -1, .best2 = high * high};
     vec_copy(p, q.p);
-    if (high > 0 && square_to_box(t->node, p) < q.best2) visit(&q, t->node);
+    for (int c = 0; c < 3; c++) q.at_tree[c] = (float)(p[c] - t->middle[c]);
+    if (high > 0) visit(&q, t->node);
     if (!q.found) return high;
     if (hit) {
         vec_copy(q.at, hit->at);
