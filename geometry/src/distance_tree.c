@@ -195,13 +195,16 @@ static void try_triangle(question *q, const tree_triangle *t)
 
 static void squares_to_boxes(const tree_node *n, const float p[3], float square[WAYS])
 {
-    for (int k = 0; k < WAYS; k++) square[k] = 0;
-    for (int c = 0; c < 3; c++)
-        for (int k = 0; k < WAYS; k++) {
-            float below = n->low[c][k] - p[c], above = p[c] - n->high[c][k], d = below > above ? below : above;
-            d = d > 0 ? d : 0;
-            square[k] += d * d;
+#pragma omp simd
+    for (int k = 0; k < WAYS; k++) {
+        float sum = 0;
+        for (int c = 0; c < 3; c++) {
+            float near = p[c] > n->low[c][k] ? p[c] : n->low[c][k];
+            near = near < n->high[c][k] ? near : n->high[c][k];
+            sum += (p[c] - near) * (p[c] - near);
         }
+        square[k] = sum;
+    }
 }
 
 /* The nearer children first. */
