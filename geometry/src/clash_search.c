@@ -176,15 +176,20 @@ static double least_signed(const hunt *h, const candidate *c, double promised)
     return distance_tree_between(tree, c->centre, 0, promised + c->radius, NULL);
 }
 
-static void search_patch(hunt *h, const clash_body *own, const patch *p, unsigned kinds)
+static void search_patch(hunt *h, const clash_body *own, const candidate *c, unsigned kinds)
 {
+    const patch *p = &own->patches.patch[c->patch];
     double x[3][3];
     for (int32_t k = p->first; k < p->first + p->count && (h->depth || h->best > 0); k++) {
         int32_t t = own->patches.order[k];
+        double reach = 0;
         if (own->kind && !(own->kind[t] & kinds)) continue;
-        for (int v = 0; v < 3; v++)
+        for (int v = 0; v < 3; v++) {
             rigid_apply(&h->to_other, own->s->xyz + 3 * (size_t)own->s->tri[3 * (size_t)t + (size_t)v], x[v]);
-        split(h, x, 0);
+            reach = fmax(reach, vec_distance(x[v], c->centre));
+        }
+        double bound = c->bound + c->radius - reach; /* tighter than the patch's */
+        if (h->depth ? -bound > h->best : bound < h->best) split(h, x, 0);
     }
 }
 
@@ -197,7 +202,7 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
     qsort(all.list, (size_t)all.count, sizeof *all.list, by_bound);
     for (const candidate *c = all.list; c < all.list + all.count; c++) {
         if (h->depth ? -c->bound <= h->best + tolerance : c->bound >= h->best - tolerance) break;
-        search_patch(h, own, &own->patches.patch[c->patch], kinds);
+        search_patch(h, own, c, kinds);
     }
     free(all.list);
 }
