@@ -18,19 +18,29 @@ typedef struct grid_triangle {
 struct solid_grid {
     const surface *s;
     double low[3], step;
-    int32_t n[3];
-    int32_t *start; /* [cells + 1] into item */
-    int32_t *item;  /* triangles that may meet the cube */
-    grid_triangle *triangle; /* in the order of the cubes: those of one lie together */
+    int32_t n[3]; /* multiples of 4 */
+    size_t bricks[2];
     cube *cube;
+    int32_t *start; /* [cubes + 1] into item */
+    int32_t *item;  /* triangles that may meet the cube */
+    grid_triangle *triangle;
 };
 
 /* Of the cube's own point, in cubes: off any plane that a surface may have. */
 static const double own_point[3] = {0.5137, 0.4789, 0.5227};
 
+/* Where a cube is while the grid is made: in rows. */
 static size_t cell(const solid_grid *g, const int32_t i[3])
 {
     return ((size_t)i[2] * (size_t)g->n[1] + (size_t)i[1]) * (size_t)g->n[0] + (size_t)i[0];
+}
+
+/* Where it is in the end: 4 x 4 x 4 of them side by side, because those who ask ask about near points. */
+static size_t place(const solid_grid *g, const int32_t i[3])
+{
+    const uint32_t x = (uint32_t)i[0], y = (uint32_t)i[1], z = (uint32_t)i[2];
+    size_t brick = ((size_t)(z / 4) * g->bricks[1] + y / 4) * g->bricks[0] + x / 4;
+    return 64 * brick + 16 * (z % 4) + 4 * (y % 4) + x % 4;
 }
 
 static void locate(const solid_grid *g, const double p[3], int32_t i[3])
@@ -109,7 +119,7 @@ static bool reach(const solid_grid *g, int32_t t, int32_t from[3], int32_t to[3]
 static void enter(solid_grid *g, int32_t t, int32_t *fill)
 {
     int32_t i[3], from[3], to[3];
-    const grid_triangle x = triangle_of(g->s, t);
+    const grid_triangle x = g->triangle[t];
     double n[3];
     if (!reach(g, t, from, to)) return;
     vec_cross(x.e1, x.e2, n);
@@ -137,23 +147,6 @@ static void sort_triangles(solid_grid *g, size_t cells)
     g->item = NEW_ARRAY(int32_t, g->start[cells]);
     for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, fill);
     free(fill);
-}
-
-/* From here on items number the copies. */
-static void copy_triangles(solid_grid *g, size_t cells)
-{
-    int32_t *number = NEW_ARRAY(int32_t, g->s->triangle_count), count = 0;
-    g->triangle = NEW_ARRAY(grid_triangle, g->s->triangle_count);
-    for (int32_t k = 0; k < g->start[cells]; k++) {
-        int32_t t = g->item[k];
-        if (!number[t]) {
-            g->triangle[count] = triangle_of(g->s, t);
-            number[t] = ++count;
-        }
-        g->item[k] = number[t] - 1;
-    }
-    g->triangle = GROW_ARRAY(grid_triangle, g->triangle, count + 1);
-    free(number);
 }
 
 /* Distances to full cubes, by two sweeps over half of the neighbours each. */
@@ -197,7 +190,6 @@ static void start_rows(solid_grid *g)
 {
     int32_t i[3], from[3], to[3];
     for (int32_t t = 0; t < g->s->triangle_count; t++) {
-        const grid_triangle triangle = triangle_of(g->s, t);
         double x = HUGE_VAL, share;
         for (int k = 0; k < 3; k++) x = fmin(x, g->s->xyz[3 * (size_t)g->s->tri[3 * (size_t)t + (size_t)k]]);
         if (x > g->low[0] + g->step) continue;
@@ -208,7 +200,7 @@ static void start_rows(solid_grid *g)
             for (i[1] = from[1]; i[1] <= to[1]; i[1]++) {
                 double p[3];
                 own_of(g, i, p);
-                if (crosses(&triangle, p, way, &share)) g->cube[cell(g, i)].inside ^= 1;
+                if (crosses(&g->triangle[t], p, way, &share)) g->cube[cell(g, i)].inside ^= 1;
             }
     }
 }
@@ -238,6 +230,44 @@ static bool find_inside(solid_grid *g, bool whole)
     return true;
 }
 
+/* All in the order of place(), the triangles too. */
+static void lay_bricks(solid_grid *g, size_t cells)
+{
+    cube *cubes = NEW_ARRAY(cube, cells);
+    int32_t *start = NEW_ARRAY(int32_t, cells + 1), *item = NEW_ARRAY(int32_t, g->start[cells]), i[3], count = 0;
+    int32_t *number = NEW_ARRAY(int32_t, g->s->triangle_count); /* of the copy, from 1 on */
+    grid_triangle *triangle = NEW_ARRAY(grid_triangle, g->s->triangle_count);
+    for (i[2] = 0; i[2] < g->n[2]; i[2]++)
+        for (i[1] = 0; i[1] < g->n[1]; i[1]++)
+            for (i[0] = 0; i[0] < g->n[0]; i[0]++) {
+                cubes[place(g, i)] = g->cube[cell(g, i)];
+                start[place(g, i) + 1] = g->start[cell(g, i) + 1] - g->start[cell(g, i)];
+            }
+    for (size_t c = 0; c < cells; c++) start[c + 1] += start[c];
+    for (i[2] = 0; i[2] < g->n[2]; i[2]++)
+        for (i[1] = 0; i[1] < g->n[1]; i[1]++)
+            for (i[0] = 0; i[0] < g->n[0]; i[0]++)
+                for (int32_t k = g->start[cell(g, i)], to = start[place(g, i)]; k < g->start[cell(g, i) + 1]; k++)
+                    item[to++] = g->item[k];
+    for (int32_t k = 0; k < start[cells]; k++) {
+        int32_t t = item[k];
+        if (!number[t]) {
+            triangle[count] = g->triangle[t];
+            number[t] = ++count;
+        }
+        item[k] = number[t] - 1;
+    }
+    free(number);
+    free(g->cube);
+    free(g->start);
+    free(g->item);
+    free(g->triangle);
+    g->cube = cubes;
+    g->start = start;
+    g->item = item;
+    g->triangle = GROW_ARRAY(grid_triangle, triangle, count + 1);
+}
+
 bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_grid **out, err *e)
 {
     if (!s->triangle_count) return err_set(e, ERR_GEOMETRY, "a surface without triangles has no inside");
@@ -255,11 +285,13 @@ bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_
             high[c] = fmax(fmin(high[c], box[3 + c]), g->low[c]);
         }
         g->low[c] -= 1.5 * step_mm; /* the outermost cubes are empty */
-        g->n[c] = (int32_t)ceil((high[c] - g->low[c]) / step_mm) + 2;
+        g->n[c] = ((int32_t)ceil((high[c] - g->low[c]) / step_mm) + 2 + 3) / 4 * 4;
+        if (c < 2) g->bricks[c] = (size_t)g->n[c] / 4;
         cells *= (size_t)g->n[c];
     }
+    g->triangle = NEW_ARRAY(grid_triangle, s->triangle_count);
+    for (int32_t t = 0; t < s->triangle_count; t++) g->triangle[t] = triangle_of(s, t);
     sort_triangles(g, cells);
-    copy_triangles(g, cells);
     g->cube = NEW_ARRAY(cube, cells);
     for (size_t c = 0; c < cells; c++) g->cube[c].away = g->start[c] == g->start[c + 1] ? FAR : 0;
     sweep(g, 1);
@@ -268,6 +300,7 @@ bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_
         solid_grid_free(&g);
         return err_set(e, ERR_GEOMETRY, "the surface is not closed");
     }
+    lay_bricks(g, cells);
     *out = g;
     return true;
 }
@@ -299,26 +332,39 @@ static double outside_box(const solid_grid *g, const double p[3])
     return vec_norm(d);
 }
 
+static double clear_in(const solid_grid *g, size_t c)
+{
+    return g->cube[c].away > 1 ? (g->cube[c].away - 1) * g->step : 0;
+}
+
+static bool inside_in(const solid_grid *g, const int32_t i[3], size_t c, const double p[3])
+{
+    return (g->cube[c].away || same_side(g, i, c, p)) == g->cube[c].inside;
+}
+
 bool solid_grid_inside(const solid_grid *g, const double p[3])
 {
     int32_t i[3];
     locate(g, p, i);
-    if (!within(g, i)) return false;
-    size_t c = cell(g, i);
-    return (g->cube[c].away || same_side(g, i, c, p)) == g->cube[c].inside;
+    return within(g, i) && inside_in(g, i, place(g, i), p);
 }
 
 double solid_grid_clear(const solid_grid *g, const double p[3])
 {
     int32_t i[3];
     locate(g, p, i);
-    if (!within(g, i)) return outside_box(g, p);
-    int away = g->cube[cell(g, i)].away;
-    return away > 1 ? (away - 1) * g->step : 0;
+    return within(g, i) ? clear_in(g, place(g, i)) : outside_box(g, p);
 }
 
 bool solid_grid_look(const solid_grid *g, const double p[3], double *clear)
 {
-    *clear = solid_grid_clear(g, p);
-    return solid_grid_inside(g, p);
+    int32_t i[3];
+    locate(g, p, i);
+    if (!within(g, i)) {
+        *clear = outside_box(g, p);
+        return false;
+    }
+    size_t c = place(g, i);
+    *clear = clear_in(g, c);
+    return inside_in(g, i, c, p);
 }
