@@ -44,8 +44,11 @@ static void keep_best(hunt *h, double d, const double p[3])
     vec_copy(p, h->at);
 }
 
-static void try_point(hunt *h, const double p[3])
+/* `from`: a point where the depth is at most d, or the distance at least. */
+static void try_point(hunt *h, const double p[3], const double from[3], double d)
 {
+    double way = vec_distance(p, from);
+    if (h->depth ? d + way <= h->best : d - way >= h->best) return;
     bool inside = solid_grid_inside(h->other->grid, p);
     if (h->depth && inside)
         keep_best(h, distance_tree_between(h->other->tree, p, h->best, HUGE_VAL, NULL), p);
@@ -53,8 +56,8 @@ static void try_point(hunt *h, const double p[3])
         keep_best(h, inside ? 0 : distance_tree_between(h->other->tree, p, 0, h->best, NULL), p);
 }
 
-/* Tries the middle of a piece; false if no point within this radius of it can better the best. d: its distance, where it
- * is the least distance that is looked for. */
+/* Tries the middle of a piece; false if no point within this radius of it can better the best. d: at most so deep, or the
+ * distance. */
 static bool try_middle(hunt *h, const double p[3], const look *l, double radius, double *d)
 {
     const double tolerance = h->other->tolerance_mm, spare = radius > tolerance ? radius - tolerance : 0;
@@ -66,6 +69,7 @@ static bool try_middle(hunt *h, const double p[3], const look *l, double radius,
     }
     if (!l->inside) {
         double reach = radius - h->best - tolerance;
+        *d = 0;
         return l->clear < reach && distance_tree_within(tree, p, reach);
     }
     if (h->best > 0 && h->best < near_mm)
@@ -84,17 +88,17 @@ static void split(hunt *h, double x[3][3], int level)
     look l = look_at(h, middle);
     if (hopeless(h, &l, radius, h->other->tolerance_mm)) return;
     if (h->depth && !l.inside && radius <= fmax(settled_mm, h->best)) { /* settled without distances */
-        for (int k = 0; k < 3 && radius > h->best; k++) try_point(h, x[k]);
+        for (int k = 0; k < 3 && radius > h->best; k++) try_point(h, x[k], middle, 0);
         return;
     }
     if (!try_middle(h, middle, &l, radius, &d)) return;
-    for (int k = 0; k < 3 && level == 0; k++) try_point(h, x[k]);
+    for (int k = 0; k < 3 && level == 0; k++) try_point(h, x[k], middle, d);
     double finest = h->depth ? small_mm : fmax(finest_distance_mm, finest_share * d);
     if (radius <= finest || level == SPLIT_DEPTH) return;
     double m[3][3]; /* middles of the edges */
     for (int k = 0; k < 3; k++) {
         for (int c = 0; c < 3; c++) m[k][c] = (x[k][c] + x[(k + 1) % 3][c]) / 2;
-        try_point(h, m[k]);
+        try_point(h, m[k], middle, d);
     }
     const double *part[4][3] = {{m[0], m[1], m[2]}, {x[0], m[0], m[2]}, {x[1], m[1], m[0]}, {x[2], m[2], m[1]}};
     for (int i = 0; i < 4 && (h->depth || h->best > 0); i++) {
