@@ -170,14 +170,20 @@ static double promise(const hunt *h, const candidates *all)
     return best;
 }
 
-/* Signed distance of its centre (negative inside), exact where the patch can better what is promised. */
-static double least_signed(const hunt *h, const candidate *c, double promised)
+/* Signed distance of its centre (negative inside), exact where the patch can better what is promised, which it may raise. */
+static double least_signed(const hunt *h, const candidate *c, double *promised)
 {
     const distance_tree *tree = h->other->tree;
-    double low = h->depth ? promised + h->other->tolerance_mm - c->radius : 0;
-    if (c->l.inside) return -distance_tree_between(tree, c->centre, low, HUGE_VAL, NULL);
-    if (h->depth) return c->l.clear; /* most patches, and little can be there */
-    return distance_tree_between(tree, c->centre, 0, promised + c->radius, NULL);
+    double low = h->depth ? *promised + h->other->tolerance_mm - c->radius : 0, high = *promised + c->radius, d;
+    if (c->l.inside) {
+        d = distance_tree_between(tree, c->centre, low, HUGE_VAL, NULL);
+        if (h->depth) *promised = fmax(*promised, d - c->radius);
+        return -d;
+    }
+    if (h->depth || c->l.clear >= high) return c->l.clear; /* most patches, and little can be there */
+    d = distance_tree_between(tree, c->centre, 0, high, NULL);
+    *promised = fmin(*promised, d + c->radius);
+    return d;
 }
 
 static void search_patch(hunt *h, const clash_body *own, const candidate *c, unsigned kinds)
@@ -202,7 +208,7 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
     double tolerance = h->other->tolerance_mm;
     candidates all = find_candidates(h, &own->patches, kinds);
     double promised = promise(h, &all);
-    for (candidate *c = all.list; c < all.list + all.count; c++) c->bound = least_signed(h, c, promised) - c->radius;
+    for (candidate *c = all.list; c < all.list + all.count; c++) c->bound = least_signed(h, c, &promised) - c->radius;
     qsort(all.list, (size_t)all.count, sizeof *all.list, by_bound);
     for (const candidate *c = all.list; c < all.list + all.count; c++) {
         if (h->depth ? -c->bound <= h->best + tolerance : c->bound >= h->best - tolerance) break;
