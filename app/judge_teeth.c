@@ -111,7 +111,9 @@ static int count_contacts(const judge *j, const rigid *rel)
         bool known = false;
         rigid_apply(rel, j->bite + 3 * (size_t)i, p);
         for (int k = 0; k < count && !known; k++) known = vec_distance(found[k], p) < apart_mm;
-        if (known || !(solid_grid_inside(grid, p) || distance_tree_within(tree, p, touch_mm))) continue;
+        if (known) continue;
+        double clear;
+        if (!solid_grid_look(grid, p, &clear) && !(clear < touch_mm && distance_tree_within(tree, p, touch_mm))) continue;
         vec_copy(p, found[count++]);
     }
     return count;

@@ -10,7 +10,7 @@ extern "C" {
 
 typedef struct solid_grid solid_grid; /* queries are const and thread-safe */
 
-/* Borrows s until solid_grid_free. box[6] (low, high) may be NULL: what lies outside it is left out, as if the body ended
+/* Copies what it needs of s. box[6] (low, high) may be NULL: what lies outside it is left out, as if the body ended
  * there. Refuses (ERR_GEOMETRY) a surface that is empty or not closed. */
 bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_grid **out, err *e) MUST_CHECK;
 void solid_grid_free(solid_grid **g); /* idempotent */

@@ -149,10 +149,11 @@ cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, cons
         double p[3], n[3];
         distance_hit hit;
         rigid_apply(rel, s->p, p);
-        bool inside = solid_grid_inside(grid, p);
-        if (inside || distance_tree_within(clash_body_tree(other), p, touch_mm)) c.mm2 += s->mm2;
+        double clear;
+        bool inside = solid_grid_look(grid, p, &clear);
+        if (inside || (clear < touch_mm && distance_tree_within(clash_body_tree(other), p, touch_mm))) c.mm2 += s->mm2;
         if (inside) facing += s->mm2;
-        if (inside || !other_face || solid_grid_clear(grid, p) > sight_mm) continue;
+        if (inside || !other_face || clear > sight_mm) continue;
         double d = distance_tree_between(other_face, p, 0, sight_mm, &hit);
         if (d >= sight_mm) continue;
         vec_sub(hit.at, p, hit.at);
