@@ -3,6 +3,7 @@
 #include "geometry/vec.h"
 #include <stdlib.h>
 
+static const double corner_share = 0.8661; /* of a cube's side: its middle to a corner */
 enum { SIDE = 4, PROBES = 3 }; /* cells along a block, test points along a cell at the surface */
 
 /* The lattice's axes: turned about (1, 2, 3) by 1 rad, which no symmetric body shares. */
@@ -27,7 +28,7 @@ static void fill_cell(bone_cells *b, const solid_grid *g, const rigid *axes, con
 {
     double p[3], sum[3] = {0};
     rigid_apply(axes, at, p);
-    if (solid_grid_clear(g, p) > h) {
+    if (solid_grid_clear(g, p) > corner_share * h) {
         if (solid_grid_inside(g, p)) put(b, p, h * h * h);
         return;
     }
@@ -121,7 +122,7 @@ bone_cells bone_cells_make(const surface *s, const solid_grid *grid, double cell
                 double at[3], p[3];
                 for (int c = 0; c < 3; c++) at[c] = low[c] + side * (i[c] + 0.5);
                 rigid_apply(&axes, at, p);
-                if (solid_grid_clear(grid, p) > side && !solid_grid_inside(grid, p)) continue;
+                if (solid_grid_clear(grid, p) > corner_share * side && !solid_grid_inside(grid, p)) continue;
                 fill_block(&b, grid, &axes, low, i, cell_mm);
             }
     balance(&b, surface_volume(s));

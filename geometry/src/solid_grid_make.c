@@ -2,6 +2,7 @@
 #include "geometry/mem.h"
 #include "geometry/src/grid_cubes.h"
 #include <stdlib.h>
+#include <string.h>
 
 static grid_triangle triangle_of(const surface *s, int32_t t)
 {
@@ -71,39 +72,61 @@ static void sort_triangles(solid_grid *g, size_t cells)
     free(fill);
 }
 
-/* Distances to full cubes, by two sweeps over half of the neighbours each. */
-static void sweep(solid_grid *g, int way)
+static bool is_full(const solid_grid *g, size_t c)
 {
-    int32_t i[3];
-    const int64_t row = g->n[0], layer = row * g->n[1];
-    int64_t step[13];
-    int offset[13][3];
-    for (int d = 0; d < 13; d++) { /* the neighbours already passed */
-        for (int c = 0, rest = d; c < 3; c++, rest /= 3) offset[d][c] = way * (rest % 3 - 1);
-        step[d] = offset[d][0] + row * offset[d][1] + layer * offset[d][2];
-    }
+    return g->start[c] != g->start[c + 1];
+}
+
+/* Of a cube in an array with a rim of one cube all around. */
+static size_t rimmed(const solid_grid *g, const int32_t i[3])
+{
+    return ((size_t)(i[2] + 1) * (size_t)(g->n[1] + 2) + (size_t)(i[1] + 1)) * (size_t)(g->n[0] + 2) + (size_t)(i[0] + 1);
+}
+
+static uint8_t smaller(uint8_t a, uint8_t b)
+{
+    return a < b ? a : b;
+}
+
+/* One of two sweeps: over the rows, each of which learns from the four before it and along itself. */
+static void sweep(const solid_grid *g, uint8_t *away, int way)
+{
+    const int64_t row = g->n[0] + 2, layer = row * (g->n[1] + 2);
     for (int32_t a = 0; a < g->n[2]; a++)
-        for (int32_t b = 0; b < g->n[1]; b++)
-            for (int32_t c = 0; c < g->n[0]; c++) {
-                i[2] = way > 0 ? a : g->n[2] - 1 - a;
-                i[1] = way > 0 ? b : g->n[1] - 1 - b;
-                i[0] = way > 0 ? c : g->n[0] - 1 - c;
-                cube *at = g->cube + cell(g, i);
-                int least = at->away;
-                if (!least) continue;
-                bool edge = a == 0 || b == 0 || c == 0 || a == g->n[2] - 1 || b == g->n[1] - 1 || c == g->n[0] - 1;
-                for (int d = 0; d < 13; d++) {
-                    const int32_t k[3] = {i[0] + offset[d][0], i[1] + offset[d][1], i[2] + offset[d][2]};
-                    if (edge && !within(g, k)) continue;
-                    int beside = at[step[d]].away + 1;
-                    least = beside < least ? beside : least;
-                }
-                at->away = (uint8_t)least & FAR;
+        for (int32_t b = 0; b < g->n[1]; b++) {
+            const int32_t first[3] = {0, way > 0 ? b : g->n[1] - 1 - b, way > 0 ? a : g->n[2] - 1 - a};
+            uint8_t *restrict at = away + rimmed(g, first);
+            const uint8_t *before[4] = {at - way * layer - row, at - way * layer, at - way * layer + row, at - way * row};
+            for (int k = 0; k < 4; k++) {
+                const uint8_t *restrict x = before[k];
+                for (int32_t i = 0; i < g->n[0]; i++)
+                    at[i] = smaller(at[i], (uint8_t)(1 + smaller(smaller(x[i - 1], x[i]), x[i + 1])));
             }
+            for (int32_t k = 0; k < g->n[0]; k++) {
+                int32_t i = way > 0 ? k : g->n[0] - 1 - k;
+                at[i] = smaller(at[i], (uint8_t)(1 + at[i - way]));
+            }
+        }
+}
+
+/* Distances to full cubes, in the array with a rim. */
+static uint8_t *find_distances(const solid_grid *g)
+{
+    size_t count = (size_t)(g->n[0] + 2) * (size_t)(g->n[1] + 2) * (size_t)(g->n[2] + 2);
+    uint8_t *away = NEW_ARRAY(uint8_t, count);
+    int32_t i[3];
+    memset(away, FAR, count);
+    for (i[2] = 0; i[2] < g->n[2]; i[2]++)
+        for (i[1] = 0; i[1] < g->n[1]; i[1]++)
+            for (i[0] = 0; i[0] < g->n[0]; i[0]++)
+                if (is_full(g, cell(g, i))) away[rimmed(g, i)] = 0;
+    sweep(g, away, 1);
+    sweep(g, away, -1);
+    return away;
 }
 
 /* Whether the first cube's own point of each row is inside: by what lies before it, of which the grid knows nothing. */
-static void start_rows(solid_grid *g)
+static void start_rows(const solid_grid *g, uint8_t *inside)
 {
     int32_t i[3], from[3], to[3];
     for (int32_t t = 0; t < g->s->triangle_count; t++) {
@@ -117,30 +140,30 @@ static void start_rows(solid_grid *g)
             for (i[1] = from[1]; i[1] <= to[1]; i[1]++) {
                 double p[3];
                 own_of(g, i, p);
-                if (crosses(&g->triangle[t], p, way, &share)) g->cube[cell(g, i)].inside ^= 1;
+                if (crosses(&g->triangle[t], p, way, &share)) inside[cell(g, i)] ^= 1;
             }
     }
 }
 
 /* Along each row of cubes. False if a row that should end outside does not. */
-static bool find_inside(solid_grid *g, bool whole)
+static bool find_inside(const solid_grid *g, bool whole, uint8_t *inside)
 {
     int32_t i[3];
     const double way[3] = {g->step, 0, 0};
     const double wall = 1 - own_point[0]; /* the next cube begins at this share of the way */
-    start_rows(g);
+    start_rows(g, inside);
     for (i[2] = 0; i[2] < g->n[2]; i[2]++)
         for (i[1] = 0; i[1] < g->n[1]; i[1]++) {
             i[0] = 0;
-            int in = g->cube[cell(g, i)].inside;
+            int in = inside[cell(g, i)];
             for (; i[0] + 1 < g->n[0]; i[0]++) {
                 size_t c = cell(g, i);
-                if (!g->cube[c].away || !g->cube[c + 1].away) {
+                if (is_full(g, c) || is_full(g, c + 1)) {
                     double p[3];
                     own_of(g, i, p);
                     in ^= (crossings(g, c, p, way, 0, wall) + crossings(g, c + 1, p, way, wall, 1)) & 1;
                 }
-                g->cube[c + 1].inside = in & 1;
+                inside[c + 1] = (uint8_t)in;
             }
             if (in && whole) return false;
         }
@@ -148,16 +171,16 @@ static bool find_inside(solid_grid *g, bool whole)
 }
 
 /* All in the order of place(), the triangles too. */
-static void lay_bricks(solid_grid *g, size_t cells)
+static void lay_bricks(solid_grid *g, size_t cells, const uint8_t *inside, const uint8_t *away)
 {
-    cube *cubes = NEW_ARRAY(cube, cells);
+    g->cube = NEW_ARRAY(cube, cells);
     int32_t *start = NEW_ARRAY(int32_t, cells + 1), *item = NEW_ARRAY(int32_t, g->start[cells]), i[3], count = 0;
     int32_t *number = NEW_ARRAY(int32_t, g->s->triangle_count); /* of the copy, from 1 on */
     grid_triangle *triangle = NEW_ARRAY(grid_triangle, g->s->triangle_count);
     for (i[2] = 0; i[2] < g->n[2]; i[2]++)
         for (i[1] = 0; i[1] < g->n[1]; i[1]++)
             for (i[0] = 0; i[0] < g->n[0]; i[0]++) {
-                cubes[place(g, i)] = g->cube[cell(g, i)];
+                g->cube[place(g, i)] = (cube){away[rimmed(g, i)] & FAR, inside[cell(g, i)] & 1};
                 start[place(g, i) + 1] = g->start[cell(g, i) + 1] - g->start[cell(g, i)];
             }
     for (size_t c = 0; c < cells; c++) start[c + 1] += start[c];
@@ -175,11 +198,9 @@ static void lay_bricks(solid_grid *g, size_t cells)
         item[k] = number[t] - 1;
     }
     free(number);
-    free(g->cube);
     free(g->start);
     free(g->item);
     free(g->triangle);
-    g->cube = cubes;
     g->start = start;
     g->item = item;
     g->triangle = GROW_ARRAY(grid_triangle, triangle, count + 1);
@@ -210,15 +231,15 @@ bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_
     g->triangle = NEW_ARRAY(grid_triangle, s->triangle_count);
     for (int32_t t = 0; t < s->triangle_count; t++) g->triangle[t] = triangle_of(s, t);
     sort_triangles(g, cells);
-    g->cube = NEW_ARRAY(cube, cells);
-    for (size_t c = 0; c < cells; c++) g->cube[c].away = g->start[c] == g->start[c + 1] ? FAR : 0;
-    sweep(g, 1);
-    sweep(g, -1);
-    if (!find_inside(g, whole)) {
+    uint8_t *inside = NEW_ARRAY(uint8_t, cells), *away = find_distances(g);
+    bool closed = find_inside(g, whole, inside);
+    if (closed) lay_bricks(g, cells, inside, away);
+    free(inside);
+    free(away);
+    if (!closed) {
         solid_grid_free(&g);
         return err_set(e, ERR_GEOMETRY, "the surface is not closed");
     }
-    lay_bricks(g, cells);
     *out = g;
     return true;
 }
