@@ -121,25 +121,41 @@ static void put_place(finding *f, const plan_moves *m, segment_id frame, const d
 
 typedef struct cut_state {
     rigid rel;
+    bool moves;
     cut_contact contact;
     clash_spot trim; /* place in the frame of the still bone */
     double mm3;
 } cut_state;
 
-static void measure(const judge *j, const judge_cut *c, const plan_moves *m, cut_state *out)
+static void measure_contact(const judge *j, const judge_cut *c, cut_state *out)
 {
-    bool moves = judge_relative(m, c->still, c->moved, &out->rel);
-    rigid back = rigid_inverse(&out->rel);
     bool split = is_sagittal(c);
     out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
                                        &out->rel, j->patient->cuts.kerf_mm + touch_mm);
+}
+
+static void measure_trim(const judge *j, const judge_cut *c, cut_state *out)
+{
+    rigid back = rigid_inverse(&out->rel);
     out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
     clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
     if (other.mm > out->trim.mm) {
         out->trim = other;
         rigid_apply(&out->rel, other.place, out->trim.place);
     }
-    out->mm3 = moves ? clash_volume(j->body[c->still], j->body[c->moved], &out->rel) : 0;
+    out->mm3 = out->moves ? clash_volume(j->body[c->still], j->body[c->moved], &out->rel) : 0;
+}
+
+/* `with` (may be NULL) is called for every cut. */
+static void measure(const judge *j, const plan_moves *m, void (*with)(const judge *, const judge_cut *, cut_state *),
+                    cut_state state[JUDGE_CUTS])
+{
+    for (int i = 0; i < JUDGE_CUTS; i++) {
+        const judge_cut *c = &j->cut[i];
+        if (!c->there) continue;
+        state[i].moves = judge_relative(m, c->still, c->moved, &state[i].rel);
+        if (with) with(j, c, &state[i]);
+    }
 }
 
 static const char *cut_name(const judge_cut *c)
@@ -207,7 +223,7 @@ static void add_trims(const judge *j, const plan_moves *m, const cut_state *stat
     }
 }
 
-static void add_pairs(const judge *j, const plan_moves *m, judgement *out)
+void judge_pairs(const judge *j, const plan_moves *m, judgement *out)
 {
     for (int i = 0; i < JUDGE_PAIRS; i++) {
         const judge_pair *p = &j->pair[i];
@@ -222,11 +238,16 @@ static void add_pairs(const judge *j, const plan_moves *m, judgement *out)
     }
 }
 
+static void measure_all(const judge *j, const judge_cut *c, cut_state *out)
+{
+    measure_contact(j, c, out);
+    measure_trim(j, c, out);
+}
+
 void judge_bones(const judge *j, const plan_moves *m, judgement *out)
 {
     cut_state state[JUDGE_CUTS];
-    for (int i = 0; i < JUDGE_CUTS; i++)
-        if (j->cut[i].there) measure(j, &j->cut[i], m, &state[i]);
+    measure(j, m, measure_all, state);
     add_places(j, m, state, LIMIT_LE_FORT_GAP, out);
     add_places(j, m, state, LIMIT_LE_FORT_STEP, out);
     add_contact(j, state, LIMIT_LE_FORT_CONTACT, out);
@@ -238,5 +259,31 @@ void judge_bones(const judge *j, const plan_moves *m, judgement *out)
     add_places(j, m, state, LIMIT_CHIN_STEP, out);
     add_contact(j, state, LIMIT_CHIN_CONTACT, out);
     add_trims(j, m, state, out);
-    add_pairs(j, m, out);
+    judge_pairs(j, m, out);
+}
+
+void judge_places(const judge *j, const plan_moves *m, judgement *out)
+{
+    static const limit_id of[] = {LIMIT_LE_FORT_GAP, LIMIT_LE_FORT_STEP, LIMIT_BSSO_BUCCAL_GAP, LIMIT_BSSO_STEP,
+                                  LIMIT_CHIN_GAP,    LIMIT_CHIN_STEP};
+    cut_state state[JUDGE_CUTS];
+    measure(j, m, NULL, state);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) add_places(j, m, state, of[i], out);
+}
+
+void judge_contacts(const judge *j, const plan_moves *m, judgement *out)
+{
+    cut_state state[JUDGE_CUTS];
+    measure(j, m, measure_contact, state);
+    add_contact(j, state, LIMIT_LE_FORT_CONTACT, out);
+    add_splits(j, state, out);
+    add_contact(j, state, LIMIT_BSSO_CONTACT, out);
+    add_contact(j, state, LIMIT_CHIN_CONTACT, out);
+}
+
+void judge_trims(const judge *j, const plan_moves *m, judgement *out)
+{
+    cut_state state[JUDGE_CUTS];
+    measure(j, m, measure_trim, state);
+    add_trims(j, m, state, out);
 }

@@ -60,6 +60,11 @@ void judge_nerve_make(judge *j);
 
 void judge_moves(const judge *j, const plan_moves *m, judgement *out);
 void judge_bones(const judge *j, const plan_moves *m, judgement *out);
+/* The parts of judge_bones one by one, for those who need not know all: from cheap to dear. */
+void judge_places(const judge *j, const plan_moves *m, judgement *out);
+void judge_contacts(const judge *j, const plan_moves *m, judgement *out);
+void judge_pairs(const judge *j, const plan_moves *m, judgement *out);
+void judge_trims(const judge *j, const plan_moves *m, judgement *out);
 void judge_nerve(const judge *j, const plan_moves *m, judgement *out);
 void judge_teeth(const judge *j, const plan_moves *m, judgement *out);
 void judge_bite(const judge *j, const plan_moves *m, judgement *out);
