@@ -39,12 +39,37 @@ bool judge_relative(const plan_moves *m, segment_id still, segment_id moved, rig
     return vec_norm(out->t) > 1e-9 || rigid_angle(out) > 1e-9;
 }
 
-/* ---- before any plan ---- */
-
 static bool is_sagittal(const judge_cut *c)
 {
     return c->contact == LIMIT_BSSO_CONTACT;
 }
+
+static void measure_contact(const judge *j, const judge_cut *c, cut_state *out)
+{
+    bool split = is_sagittal(c);
+    out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
+                                       &out->rel, j->patient->cuts.kerf_mm + touch_mm);
+}
+
+static void measure_trim(const judge *j, const judge_cut *c, cut_state *out)
+{
+    rigid back = rigid_inverse(&out->rel);
+    out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
+    clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
+    if (other.mm > out->trim.mm) {
+        out->trim = other;
+        rigid_apply(&out->rel, other.place, out->trim.place);
+    }
+    out->mm3 = clash_volume(j->body[c->still], j->body[c->moved], &out->rel);
+}
+
+static void measure_all(const judge *j, const judge_cut *c, cut_state *out)
+{
+    measure_contact(j, c, out);
+    measure_trim(j, c, out);
+}
+
+/* ---- before any plan ---- */
 
 static void make_cut(judge *j, const struct cut_row *row, const cut_bones *bones, judge_cut *c)
 {
@@ -69,6 +94,9 @@ static void make_cut(judge *j, const struct cut_row *row, const cut_bones *bones
             c->place_count++;
     }
     cut_face_free(&buccal);
+    c->rest.rel = rigid_identity();
+    measure_all(j, c, &c->rest);
+    c->rest.mm3 = 0; /* the saw's width lies between them */
 }
 
 void judge_bones_make(judge *j)
@@ -119,33 +147,6 @@ static void put_place(finding *f, const plan_moves *m, segment_id frame, const d
     rigid_apply(&m->move[frame], p, f->place);
 }
 
-typedef struct cut_state {
-    rigid rel;
-    bool moves;
-    cut_contact contact;
-    clash_spot trim; /* place in the frame of the still bone */
-    double mm3;
-} cut_state;
-
-static void measure_contact(const judge *j, const judge_cut *c, cut_state *out)
-{
-    bool split = is_sagittal(c);
-    out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
-                                       &out->rel, j->patient->cuts.kerf_mm + touch_mm);
-}
-
-static void measure_trim(const judge *j, const judge_cut *c, cut_state *out)
-{
-    rigid back = rigid_inverse(&out->rel);
-    out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
-    clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
-    if (other.mm > out->trim.mm) {
-        out->trim = other;
-        rigid_apply(&out->rel, other.place, out->trim.place);
-    }
-    out->mm3 = out->moves ? clash_volume(j->body[c->still], j->body[c->moved], &out->rel) : 0;
-}
-
 /* `with` (may be NULL) is called for every cut. */
 static void measure(const judge *j, const plan_moves *m, void (*with)(const judge *, const judge_cut *, cut_state *),
                     cut_state state[JUDGE_CUTS])
@@ -153,8 +154,10 @@ static void measure(const judge *j, const plan_moves *m, void (*with)(const judg
     for (int i = 0; i < JUDGE_CUTS; i++) {
         const judge_cut *c = &j->cut[i];
         if (!c->there) continue;
-        state[i].moves = judge_relative(m, c->still, c->moved, &state[i].rel);
-        if (with) with(j, c, &state[i]);
+        if (!judge_relative(m, c->still, c->moved, &state[i].rel))
+            state[i] = c->rest;
+        else if (with)
+            with(j, c, &state[i]);
     }
 }
 
@@ -236,12 +239,6 @@ void judge_pairs(const judge *j, const plan_moves *m, judgement *out)
         if (spot.found) put_place(f, m, p->still, spot.place);
         if (p->rest_mm > 0.1) f->note = "beyond the overlap that the scan itself shows";
     }
-}
-
-static void measure_all(const judge *j, const judge_cut *c, cut_state *out)
-{
-    measure_contact(j, c, out);
-    measure_trim(j, c, out);
 }
 
 void judge_bones(const judge *j, const plan_moves *m, judgement *out)

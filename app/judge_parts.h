@@ -11,6 +11,13 @@ typedef struct judge_place { /* where a cut's opening is measured */
     cut_place at;
 } judge_place;
 
+typedef struct cut_state { /* how a cut stands after a plan */
+    rigid rel;
+    cut_contact contact;
+    clash_spot trim; /* place in the frame of the still bone */
+    double mm3;
+} cut_state;
+
 typedef struct judge_cut {
     segment_id still, moved;
     const char *where; /* "", "left", "right" */
@@ -21,6 +28,7 @@ typedef struct judge_cut {
     distance_tree *face_tree, *back_tree;
     int place_count;
     judge_place place[CUT_PLACES_MAX];
+    cut_state rest; /* where both bones keep their place to each other, which is most cuts of most plans */
 } judge_cut;
 
 typedef struct judge_pair { /* bones that no cut parted */
