@@ -38,6 +38,26 @@ static bool reach(const solid_grid *g, int32_t t, int32_t from[3], int32_t to[3]
     return meets;
 }
 
+/* An edge of the triangle has the cube wholly on its outer side, seen along one of the cube's axes (T. Akenine-Moeller,
+ * Fast 3D triangle-box overlap testing, 2001). half: of the cube's side. */
+static bool passes_by(const grid_triangle *t, const double middle[3], double half)
+{
+    double v[3][3];
+    vec_sub(t->a, middle, v[0]);
+    vec_add(v[0], t->e1, v[1]);
+    vec_add(v[0], t->e2, v[2]);
+    for (int k = 0; k < 3; k++) {
+        const double *from = v[k], *to = v[(k + 1) % 3], *other = v[(k + 2) % 3];
+        for (int c = 0; c < 3; c++) {
+            const int x = (c + 1) % 3, y = (c + 2) % 3;
+            double ex = to[x] - from[x], ey = to[y] - from[y], reach = half * (fabs(ex) + fabs(ey)),
+                   a = ex * from[y] - ey * from[x], b = ex * other[y] - ey * other[x];
+            if ((a > reach && b > reach) || (a < -reach && b < -reach)) return true;
+        }
+    }
+    return false;
+}
+
 /* Counts the triangle in every cube that it may meet, or enters it there once item exists. */
 static void enter(solid_grid *g, int32_t t, int32_t *fill)
 {
@@ -54,6 +74,7 @@ static void enter(solid_grid *g, int32_t t, int32_t *fill)
                                           g->low[2] + g->step * (i[2] + 0.5)};
                 size_t c = cell(g, i);
                 if (fabs(vec_dot(n, middle) - level) > half) continue; /* the triangle's plane passes it by */
+                if (passes_by(&x, middle, g->step / 2 * (1 + 1e-9))) continue;
                 if (g->item)
                     g->item[fill[c]++] = t;
                 else
