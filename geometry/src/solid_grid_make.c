@@ -58,8 +58,26 @@ static bool passes_by(const grid_triangle *t, const double middle[3], double hal
     return false;
 }
 
-/* Counts the triangle in every cube that it may meet, or enters it there once item exists. */
-static void enter(solid_grid *g, int32_t t, int32_t *fill)
+typedef struct meeting { /* of a cube and a triangle */
+    size_t at; /* cube */
+    int32_t triangle;
+} meeting;
+
+typedef struct meetings {
+    meeting *list;
+    size_t count, room;
+} meetings;
+
+static void add_meeting(meetings *all, size_t at, int32_t triangle)
+{
+    if (all->count == all->room) {
+        all->room = 2 * all->room + 1024;
+        all->list = GROW_ARRAY(meeting, all->list, all->room);
+    }
+    all->list[all->count++] = (meeting){at, triangle};
+}
+
+static void find_meetings(const solid_grid *g, int32_t t, meetings *all)
 {
     int32_t i[3], from[3], to[3];
     const grid_triangle x = g->triangle[t];
@@ -72,24 +90,22 @@ static void enter(solid_grid *g, int32_t t, int32_t *fill)
             for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
                 const double middle[3] = {g->low[0] + g->step * (i[0] + 0.5), g->low[1] + g->step * (i[1] + 0.5),
                                           g->low[2] + g->step * (i[2] + 0.5)};
-                size_t c = cell(g, i);
                 if (fabs(vec_dot(n, middle) - level) > half) continue; /* the triangle's plane passes it by */
-                if (passes_by(&x, middle, g->step / 2 * (1 + 1e-9))) continue;
-                if (g->item)
-                    g->item[fill[c]++] = t;
-                else
-                    g->start[c + 1]++;
+                if (!passes_by(&x, middle, g->step / 2 * (1 + 1e-9))) add_meeting(all, cell(g, i), t);
             }
 }
 
 static void sort_triangles(solid_grid *g, size_t cells)
 {
+    meetings all = {0};
     g->start = NEW_ARRAY(int32_t, cells + 1);
-    for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, NULL);
+    for (int32_t t = 0; t < g->s->triangle_count; t++) find_meetings(g, t, &all);
+    for (size_t k = 0; k < all.count; k++) g->start[all.list[k].at + 1]++;
     for (size_t c = 0; c < cells; c++) g->start[c + 1] += g->start[c];
     int32_t *fill = COPY_ARRAY(int32_t, g->start, cells);
-    g->item = NEW_ARRAY(int32_t, g->start[cells]);
-    for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, fill);
+    g->item = NEW_ARRAY(int32_t, all.count);
+    for (size_t k = 0; k < all.count; k++) g->item[fill[all.list[k].at]++] = all.list[k].triangle;
+    free(all.list);
     free(fill);
 }
 
