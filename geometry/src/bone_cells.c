@@ -59,7 +59,8 @@ static bone_block block_around(const bone_cells *b, int32_t first)
 }
 
 /* The cells with the middles low + cell_mm (from .. from + 2, + 1/2), lattice axes. */
-static void fill_part(bone_cells *b, const solid_grid *g, const rigid *axes, const double low[3], const int from[3], double h)
+static void fill_part(bone_cells *b, const solid_grid *g, const rigid *axes, const double low[3], const int from[3],
+                      double h)
 {
     int32_t first = b->count;
     for (int k = 0; k < 8; k++) {
@@ -72,7 +73,8 @@ static void fill_part(bone_cells *b, const solid_grid *g, const rigid *axes, con
     b->part[b->part_count++] = block_around(b, first);
 }
 
-static void fill_block(bone_cells *b, const solid_grid *g, const rigid *axes, const double low[3], const int block[3], double h)
+static void fill_block(bone_cells *b, const solid_grid *g, const rigid *axes, const double low[3], const int block[3],
+                       double h)
 {
     int32_t first = b->count, first_part = b->part_count;
     for (int k = 0; k < 8; k++) {

@@ -166,11 +166,12 @@ static double promise(const hunt *h, const candidates *all)
         else if (!h->depth && (!nearest || c->l.clear - c->radius < nearest->l.clear - nearest->radius))
             nearest = c;
     }
-    if (nearest) best = fmin(best, nearest->radius + distance_tree_between(h->other->tree, nearest->centre, 0, best, NULL));
-    return best;
+    if (!nearest) return best;
+    return fmin(best, nearest->radius + distance_tree_between(h->other->tree, nearest->centre, 0, best, NULL));
 }
 
-/* Signed distance of its centre (negative inside), exact where the patch can better what is promised, which it may raise. */
+/* Signed distance of its centre (negative inside), exact where the patch can better what is promised, which is
+ * then raised. */
 static double least_signed(const hunt *h, const candidate *c, double *promised)
 {
     const distance_tree *tree = h->other->tree;

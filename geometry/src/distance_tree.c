@@ -117,7 +117,7 @@ distance_tree *distance_tree_make(const surface *s)
     distance_tree *t = NEW_ARRAY(distance_tree, 1);
     making m = {
         .s = s, .t = t, .order = NEW_ARRAY(int32_t, count), .middle = NEW_ARRAY(double, 3 * (size_t)count)};
-    t->node = NEW_ARRAY(tree_node, count + 1); /* each holds a triangle that no node below it holds alone */
+    t->node = NEW_ARRAY(tree_node, count + 1); /* enough: of each at least two children hold some */
     t->triangle = NEW_ARRAY(tree_triangle, count);
     if (count) find_size(t, s);
     for (int32_t i = 0; i < count; i++) {
@@ -156,7 +156,7 @@ typedef struct question {
     const distance_tree *t;
     double p[3], low2, best2; /* squares; best2: of what is found so far, at first of what matters */
     bool settled;             /* not above low */
-    float at_tree[3]; /* p about the tree's middle */
+    float at_tree[3];         /* p about the tree's middle */
     const tree_triangle *found;
     double at[3];
 } question;

@@ -59,7 +59,7 @@ static bool passes_by(const grid_triangle *t, const double middle[3], double hal
 }
 
 typedef struct meeting { /* of a cube and a triangle */
-    size_t at; /* cube */
+    size_t at; /* the cube's number */
     int32_t triangle;
 } meeting;
 
