@@ -209,9 +209,13 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
     double tolerance = h->other->tolerance_mm;
     candidates all = find_candidates(h, &own->patches, kinds);
     double promised = promise(h, &all);
-    for (candidate *c = all.list; c < all.list + all.count; c++) c->bound = least_signed(h, c, &promised) - c->radius;
-    qsort(all.list, (size_t)all.count, sizeof *all.list, by_bound);
-    for (const candidate *c = all.list; c < all.list + all.count; c++) {
+    int32_t count = 0; /* of those that may better what is promised */
+    for (candidate *c = all.list; c < all.list + all.count; c++) {
+        c->bound = least_signed(h, c, &promised) - c->radius;
+        if (h->depth ? -c->bound > promised + tolerance : c->bound < promised) all.list[count++] = *c;
+    }
+    qsort(all.list, (size_t)count, sizeof *all.list, by_bound);
+    for (const candidate *c = all.list; c < all.list + count; c++) {
         if (h->depth ? -c->bound <= h->best + tolerance : c->bound >= h->best - tolerance) break;
         search_patch(h, own, c, kinds);
     }
