@@ -158,16 +158,16 @@ static candidates find_candidates(const hunt *h, const patches *p, unsigned kind
 /* A depth or distance that is certainly reached, by the one that looks best. */
 static double promise(const hunt *h, const candidates *all)
 {
-    double best = h->best;
-    const candidate *nearest = NULL;
+    const candidate *first = NULL;
     for (const candidate *c = all->list; c < all->list + all->count; c++) {
-        if (h->depth && c->l.inside)
-            best = fmax(best, c->l.clear - c->radius);
-        else if (!h->depth && (!nearest || c->l.clear - c->radius < nearest->l.clear - nearest->radius))
-            nearest = c;
+        if (h->depth && !c->l.inside) continue;
+        bool better = first && (h->depth ? c->l.clear - c->radius > first->l.clear - first->radius
+                                         : c->l.clear - c->radius < first->l.clear - first->radius);
+        if (!first || better) first = c;
     }
-    if (!nearest) return best;
-    return fmin(best, nearest->radius + distance_tree_between(h->other->tree, nearest->centre, 0, best, NULL));
+    if (!first) return h->best;
+    double d = distance_tree_to(h->other->tree, first->centre, NULL);
+    return h->depth ? fmax(h->best, d - first->radius) : fmin(h->best, d + first->radius);
 }
 
 /* Signed distance of its centre (negative inside), exact where the patch can better what is promised, which is
