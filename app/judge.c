@@ -1,6 +1,5 @@
 #include "app/judge_parts.h"
 #include "geometry/mem.h"
-#include "geometry/nearest.h"
 #include "geometry/vec.h"
 #include <assert.h>
 #include <stdlib.h>
@@ -45,7 +44,7 @@ static void find_carriers(judge *j)
     for (int32_t i = 0; i < l->count; i++) {
         double least = HUGE_VAL;
         for (int s = 0; s < SEGMENT_COUNT; s++) {
-            double d = j->body[s] ? nearest_point(clash_body_tree(j->body[s]), l->point[i].xyz, NULL, NULL) : HUGE_VAL;
+            double d = j->body[s] ? distance_tree_between(clash_body_tree(j->body[s]), l->point[i].xyz, 0, least, NULL) : HUGE_VAL;
             if (d >= least) continue;
             least = d;
             j->carrier[i] = s;
@@ -116,10 +115,11 @@ bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
     j->patient = c;
     j->prepared = p;
     find_bite(j);
-    if (!make_bodies(j, e) || !judge_bones_make(j, e)) {
+    if (!make_bodies(j, e)) {
         judge_free(&j);
         return false;
     }
+    judge_bones_make(j);
     find_carriers(j);
     judge_nerve_make(j);
     judge_teeth_make(j);

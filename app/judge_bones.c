@@ -39,14 +39,39 @@ bool judge_relative(const plan_moves *m, segment_id still, segment_id moved, rig
     return vec_norm(out->t) > 1e-9 || rigid_angle(out) > 1e-9;
 }
 
-/* ---- before any plan ---- */
-
 static bool is_sagittal(const judge_cut *c)
 {
     return c->contact == LIMIT_BSSO_CONTACT;
 }
 
-static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones, judge_cut *c, err *e)
+static void measure_contact(const judge *j, const judge_cut *c, cut_state *out)
+{
+    bool split = is_sagittal(c);
+    out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
+                                       &out->rel, j->patient->cuts.kerf_mm + touch_mm);
+}
+
+static void measure_trim(const judge *j, const judge_cut *c, cut_state *out)
+{
+    rigid back = rigid_inverse(&out->rel);
+    out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
+    clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
+    if (other.mm > out->trim.mm) {
+        out->trim = other;
+        rigid_apply(&out->rel, other.place, out->trim.place);
+    }
+    out->mm3 = clash_volume(j->body[c->still], j->body[c->moved], &out->rel);
+}
+
+static void measure_all(const judge *j, const judge_cut *c, cut_state *out)
+{
+    measure_contact(j, c, out);
+    measure_trim(j, c, out);
+}
+
+/* ---- before any plan ---- */
+
+static void make_cut(judge *j, const struct cut_row *row, const cut_bones *bones, judge_cut *c)
 {
     const head_frame *f = &j->prepared->frame;
     *c = (judge_cut){.still = row->still, .moved = row->moved, .where = row->where, .gap = row->gap,
@@ -54,9 +79,9 @@ static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones
     c->face = cut_face_make(bones, row->moved, row->still, spacing_mm);
     c->back = cut_face_make(bones, row->still, row->moved, spacing_mm);
     c->there = c->face.count && c->back.count;
-    if (!c->there) return true;
-    if (!nearest_create(&c->face.shell, &c->face_tree, e) || !nearest_create(&c->back.shell, &c->back_tree, e))
-        return false;
+    if (!c->there) return;
+    c->face_tree = distance_tree_make(&c->face.shell);
+    c->back_tree = distance_tree_make(&c->back.shell);
     double forwards[3];
     vec_scale(f->posterior, -1, forwards);
     c->plate = cut_face_towards(&c->face, f->left, 0.5, true);
@@ -69,28 +94,28 @@ static bool make_cut(judge *j, const struct cut_row *row, const cut_bones *bones
             c->place_count++;
     }
     cut_face_free(&buccal);
-    return true;
+    c->rest.rel = rigid_identity();
+    measure_all(j, c, &c->rest);
+    c->rest.mm3 = 0; /* the saw's width lies between them */
 }
 
-bool judge_bones_make(judge *j, err *e)
+void judge_bones_make(judge *j)
 {
     const segments *s = &j->prepared->segments;
     cut_bones bones = {.bones = s};
-    nearest *saw = NULL;
+    distance_tree *saw = distance_tree_make(&s->kerf);
     for (int i = 0; i < SEGMENT_COUNT; i++)
         if (j->body[i]) bones.part[i] = clash_body_tree(j->body[i]);
-    bool ok = !s->kerf.triangle_count || nearest_create(&s->kerf, &saw, e);
     bones.kerf = saw;
-    for (int i = 0; ok && i < JUDGE_CUTS; i++) ok = make_cut(j, &cut_rows[i], &bones, &j->cut[i], e);
-    nearest_destroy(&saw);
+    for (int i = 0; i < JUDGE_CUTS; i++) make_cut(j, &cut_rows[i], &bones, &j->cut[i]);
+    distance_tree_free(&saw);
     rigid rest = rigid_identity();
-    for (int i = 0; ok && i < JUDGE_PAIRS; i++) {
+    for (int i = 0; i < JUDGE_PAIRS; i++) {
         judge_pair *p = &j->pair[i];
         *p = pair_rows[i];
         if (j->body[p->still] && j->body[p->moved])
             p->rest_mm = clash_depth(j->body[p->still], j->body[p->moved], &rest, KIND_BONE).mm;
     }
-    return ok;
 }
 
 void judge_bones_free(judge *j)
@@ -100,8 +125,8 @@ void judge_bones_free(judge *j)
         cut_face_free(&c->face);
         cut_face_free(&c->back);
         cut_face_free(&c->plate);
-        nearest_destroy(&c->face_tree);
-        nearest_destroy(&c->back_tree);
+        distance_tree_free(&c->face_tree);
+        distance_tree_free(&c->back_tree);
     }
 }
 
@@ -122,27 +147,18 @@ static void put_place(finding *f, const plan_moves *m, segment_id frame, const d
     rigid_apply(&m->move[frame], p, f->place);
 }
 
-typedef struct cut_state {
-    rigid rel;
-    cut_contact contact;
-    clash_spot trim; /* place in the frame of the still bone */
-    double mm3;
-} cut_state;
-
-static void measure(const judge *j, const judge_cut *c, const plan_moves *m, cut_state *out)
+/* `with` (may be NULL) is called for every cut. */
+static void measure(const judge *j, const plan_moves *m, void (*with)(const judge *, const judge_cut *, cut_state *),
+                    cut_state state[JUDGE_CUTS])
 {
-    bool moves = judge_relative(m, c->still, c->moved, &out->rel);
-    rigid back = rigid_inverse(&out->rel);
-    bool split = is_sagittal(c);
-    out->contact = cut_contact_measure(split ? &c->plate : &c->face, j->body[c->still], split ? c->back_tree : NULL,
-                                       &out->rel, j->patient->cuts.kerf_mm + touch_mm);
-    out->trim = cut_face_trim(&c->face, j->body[c->still], c->back_tree, &out->rel);
-    clash_spot other = cut_face_trim(&c->back, j->body[c->moved], c->face_tree, &back);
-    if (other.mm > out->trim.mm) {
-        out->trim = other;
-        rigid_apply(&out->rel, other.place, out->trim.place);
+    for (int i = 0; i < JUDGE_CUTS; i++) {
+        const judge_cut *c = &j->cut[i];
+        if (!c->there) continue;
+        if (!judge_relative(m, c->still, c->moved, &state[i].rel))
+            state[i] = c->rest;
+        else if (with)
+            with(j, c, &state[i]);
     }
-    out->mm3 = moves ? clash_volume(j->body[c->still], j->body[c->moved], &out->rel) : 0;
 }
 
 static const char *cut_name(const judge_cut *c)
@@ -210,7 +226,7 @@ static void add_trims(const judge *j, const plan_moves *m, const cut_state *stat
     }
 }
 
-static void add_pairs(const judge *j, const plan_moves *m, judgement *out)
+void judge_pairs(const judge *j, const plan_moves *m, judgement *out)
 {
     for (int i = 0; i < JUDGE_PAIRS; i++) {
         const judge_pair *p = &j->pair[i];
@@ -228,8 +244,7 @@ static void add_pairs(const judge *j, const plan_moves *m, judgement *out)
 void judge_bones(const judge *j, const plan_moves *m, judgement *out)
 {
     cut_state state[JUDGE_CUTS];
-    for (int i = 0; i < JUDGE_CUTS; i++)
-        if (j->cut[i].there) measure(j, &j->cut[i], m, &state[i]);
+    measure(j, m, measure_all, state);
     add_places(j, m, state, LIMIT_LE_FORT_GAP, out);
     add_places(j, m, state, LIMIT_LE_FORT_STEP, out);
     add_contact(j, state, LIMIT_LE_FORT_CONTACT, out);
@@ -241,5 +256,31 @@ void judge_bones(const judge *j, const plan_moves *m, judgement *out)
     add_places(j, m, state, LIMIT_CHIN_STEP, out);
     add_contact(j, state, LIMIT_CHIN_CONTACT, out);
     add_trims(j, m, state, out);
-    add_pairs(j, m, out);
+    judge_pairs(j, m, out);
+}
+
+void judge_places(const judge *j, const plan_moves *m, judgement *out)
+{
+    static const limit_id of[] = {LIMIT_LE_FORT_GAP, LIMIT_LE_FORT_STEP, LIMIT_BSSO_BUCCAL_GAP, LIMIT_BSSO_STEP,
+                                  LIMIT_CHIN_GAP,    LIMIT_CHIN_STEP};
+    cut_state state[JUDGE_CUTS];
+    measure(j, m, NULL, state);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) add_places(j, m, state, of[i], out);
+}
+
+void judge_contacts(const judge *j, const plan_moves *m, judgement *out)
+{
+    cut_state state[JUDGE_CUTS];
+    measure(j, m, measure_contact, state);
+    add_contact(j, state, LIMIT_LE_FORT_CONTACT, out);
+    add_splits(j, state, out);
+    add_contact(j, state, LIMIT_BSSO_CONTACT, out);
+    add_contact(j, state, LIMIT_CHIN_CONTACT, out);
+}
+
+void judge_trims(const judge *j, const plan_moves *m, judgement *out)
+{
+    cut_state state[JUDGE_CUTS];
+    measure(j, m, measure_trim, state);
+    add_trims(j, m, state, out);
 }

@@ -59,7 +59,9 @@ void judge_nerve(const judge *j, const plan_moves *m, judgement *out)
         for (int i = 0; i < j->canal_count[k]; i++) {
             double p[3];
             rigid_apply(&rel, j->canal[k] + 3 * i, p);
-            double d = solid_grid_inside(clash_body_grid(bone), p) ? 0 : nearest_point(clash_body_tree(bone), p, NULL, NULL);
+            double d = solid_grid_inside(clash_body_grid(bone), p)
+                           ? 0
+                           : distance_tree_between(clash_body_tree(bone), p, 0, least, NULL);
             if (d >= least) continue;
             least = d;
             vec_copy(p, place);

@@ -11,6 +11,13 @@ typedef struct judge_place { /* where a cut's opening is measured */
     cut_place at;
 } judge_place;
 
+typedef struct cut_state { /* how a cut stands after a plan */
+    rigid rel;
+    cut_contact contact;
+    clash_spot trim; /* place in the frame of the still bone */
+    double mm3;
+} cut_state;
+
 typedef struct judge_cut {
     segment_id still, moved;
     const char *where; /* "", "left", "right" */
@@ -18,9 +25,10 @@ typedef struct judge_cut {
     bool there;
     cut_face face, back;         /* of the moved bone and of the still one */
     cut_face plate;              /* of `face`: what is in contact side by side; BSSO only */
-    nearest *face_tree, *back_tree;
+    distance_tree *face_tree, *back_tree;
     int place_count;
     judge_place place[CUT_PLACES_MAX];
+    cut_state rest; /* where both bones keep their place to each other, which is most cuts of most plans */
 } judge_cut;
 
 typedef struct judge_pair { /* bones that no cut parted */
@@ -53,13 +61,18 @@ bool judge_relative(const plan_moves *m, segment_id still, segment_id moved, rig
 /* Which triangles of a bone are crowns [triangle_count]; NULL with a reason where it cannot be known. */
 uint8_t *judge_crowns(const prepared *p, segment_id bone, const char **why);
 /* Needs the bodies. */
-bool judge_bones_make(judge *j, err *e) MUST_CHECK;
+void judge_bones_make(judge *j);
 void judge_bones_free(judge *j);
 void judge_teeth_make(judge *j);
 void judge_nerve_make(judge *j);
 
 void judge_moves(const judge *j, const plan_moves *m, judgement *out);
 void judge_bones(const judge *j, const plan_moves *m, judgement *out);
+/* The parts of judge_bones one by one, for those who need not know all: from cheap to dear. */
+void judge_places(const judge *j, const plan_moves *m, judgement *out);
+void judge_contacts(const judge *j, const plan_moves *m, judgement *out);
+void judge_pairs(const judge *j, const plan_moves *m, judgement *out);
+void judge_trims(const judge *j, const plan_moves *m, judgement *out);
 void judge_nerve(const judge *j, const plan_moves *m, judgement *out);
 void judge_teeth(const judge *j, const plan_moves *m, judgement *out);
 void judge_bite(const judge *j, const plan_moves *m, judgement *out);

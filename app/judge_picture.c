@@ -1,6 +1,7 @@
 #include "app/judge_picture.h"
 #include "app/judge_parts.h"
 #include "geometry/mem.h"
+#include "geometry/nearest.h"
 #include "geometry/vec.h"
 #include "render/compose.h"
 #include "render/picture.h"
@@ -54,6 +55,7 @@ static void add_triangle(patchwork *w, double x[3][3], const rigid *move, const 
 typedef struct brush { /* what is painted of the triangles of one bone that is moved against another */
     patchwork *to;
     const clash_body *other;
+    const nearest *sight; /* of gaps: to look for the other bone */
     rigid rel, move;
     double saw_mm; /* of gaps */
 } brush;
@@ -112,7 +114,7 @@ static void paint_gap(const brush *b, double x[3][3])
     rigid_apply(&b->rel, middle, p);
     rigid_rotate(&b->rel, n, n);
     if (solid_grid_inside(clash_body_grid(b->other), p)) return;
-    bool faces = nearest_ray(clash_body_tree(b->other), p, n, hit, NULL);
+    bool faces = nearest_ray(b->sight, p, n, hit, NULL);
     double gap = (faces ? vec_distance(p, hit) : 2 * dark_blue_mm) - b->saw_mm, share = fmin(gap / dark_blue_mm, 1);
     if (gap < parted_mm) return;
     for (int c = 0; c < 3; c++) rgb[c] = pale[c] + share * (blue[c] - pale[c]);
@@ -141,25 +143,31 @@ static void add_overlap(scene *s, segment_id own, segment_id other)
     if (b.other && judge_relative(s->m, other, own, &b.rel)) paint(&s->j->prepared->segments.part[own], &b, paint_overlap);
 }
 
-static void add_gap(scene *s, const surface *shell, segment_id own, segment_id other)
+static bool add_gap(scene *s, const surface *shell, segment_id own, segment_id other, err *e)
 {
-    brush b = {.to = &s->gap, .other = s->j->body[other], .move = s->m->move[own], .saw_mm = s->j->patient->cuts.kerf_mm};
+    nearest *sight;
+    if (!nearest_create(&s->j->prepared->segments.part[other], &sight, e)) return false;
+    brush b = {.to = &s->gap, .other = s->j->body[other], .sight = sight, .move = s->m->move[own],
+               .saw_mm = s->j->patient->cuts.kerf_mm};
     if (judge_relative(s->m, other, own, &b.rel)) paint(shell, &b, paint_gap);
+    nearest_destroy(&sight);
+    return true;
 }
 
-static void find_surfaces(scene *s)
+static bool find_surfaces(scene *s, err *e)
 {
     for (int i = 0; i < JUDGE_CUTS; i++) {
         const judge_cut *c = &s->j->cut[i];
         if (!c->there) continue;
         add_overlap(s, c->moved, c->still);
         add_overlap(s, c->still, c->moved);
-        add_gap(s, &c->face.shell, c->moved, c->still);
+        if (!add_gap(s, &c->face.shell, c->moved, c->still, e)) return false;
     }
     for (int i = 0; i < JUDGE_PAIRS; i++) {
         add_overlap(s, s->j->pair[i].moved, s->j->pair[i].still);
         add_overlap(s, s->j->pair[i].still, s->j->pair[i].moved);
     }
+    return true;
 }
 
 static void find_marks(scene *s, const judgement *now)
@@ -306,9 +314,8 @@ bool judge_picture_write(const judge *j, const plan_moves *m, const judgement *n
     image sheet = {0};
     s->j = j;
     s->m = m;
-    find_surfaces(s);
     find_marks(s, now);
-    bool ok = studio_open(&st, e) && make_layers(s, st, e) && draw_sheet(s, st, now, title, &sheet, e) &&
+    bool ok = find_surfaces(s, e) && studio_open(&st, e) && make_layers(s, st, e) && draw_sheet(s, st, now, title, &sheet, e) &&
               png_file_write(&sheet, NULL, 0, path, e);
     for (int i = 0; i < LAYERS; i++) model_free(&s->shape[i]);
     studio_close(&st);

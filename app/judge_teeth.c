@@ -105,12 +105,15 @@ static int count_contacts(const judge *j, const rigid *rel)
     double found[MOST][3];
     int count = 0;
     const solid_grid *grid = clash_body_grid(j->body[SEGMENT_MAXILLA]);
+    const distance_tree *tree = clash_body_tree(j->body[SEGMENT_MAXILLA]);
     for (int32_t i = 0; i < j->bite_count && count < MOST; i++) {
         double p[3];
         bool known = false;
         rigid_apply(rel, j->bite + 3 * (size_t)i, p);
         for (int k = 0; k < count && !known; k++) known = vec_distance(found[k], p) < apart_mm;
-        if (known || !(solid_grid_inside(grid, p) || solid_grid_touches(grid, p, touch_mm))) continue;
+        if (known) continue;
+        double clear;
+        if (!solid_grid_look(grid, p, &clear) && !(clear < touch_mm && distance_tree_within(tree, p, touch_mm))) continue;
         vec_copy(p, found[count++]);
     }
     return count;

@@ -1,6 +1,7 @@
 #include "app/remedy.h"
 #include "app/judge_parts.h"
 #include "geometry/vec.h"
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -61,6 +62,13 @@ static void apply(plan_file *p, const head_frame *f, change c, double by)
     vec_axpy(t, sign[c.kind] * by, axis, t);
 }
 
+typedef void (*judge_part)(const judge *, const plan_moves *, judgement *);
+
+/* All that a plan changes, from cheap to dear. */
+static const judge_part parts[] = {judge_moves,    judge_bite,  judge_places, judge_nerve,
+                                   judge_contacts, judge_pairs, judge_teeth,  judge_trims};
+enum { PARTS = sizeof parts / sizeof *parts };
+
 typedef struct trial {
     const judge *j;
     const case_file *c;
@@ -68,39 +76,54 @@ typedef struct trial {
     plan_file plan;
     const judgement *now;
     int which;
+    judge_part first; /* the part that the finding is of */
 } trial;
 
-/* What moves and landmarks alone decide does not forbid the change already. */
-static bool cheap_ones_allow(const trial *t, const plan_moves *m)
+static const finding *counterpart(const judgement *now, const finding *f)
+{
+    const finding *was = now->finding;
+    while (was->limit != f->limit || strcmp(was->where, f->where) != 0) was++;
+    return was;
+}
+
+/* Nothing that this part judges is worse than now, and the finding, if it is one of them, is better by a level. */
+static bool allows(const trial *t, judge_part part, const plan_moves *m)
 {
     judgement then = {.reason = -1};
-    judge_moves(t->j, m, &then);
-    judge_bite(t->j, m, &then);
+    part(t->j, m, &then);
     for (int i = 0; i < then.count; i++) {
-        const finding *f = &then.finding[i], *was = t->now->finding;
-        while (was->limit != f->limit) was++; /* one finding each */
+        const finding *f = &then.finding[i], *was = counterpart(t->now, f);
         if (f->level > was->level) return false;
-        if (was == &t->now->finding[t->which] && f->level == was->level) return false;
+        if (was != &t->now->finding[t->which]) continue;
+        if (f->level == was->level || f->level == LIMIT_NOT_JUDGED) return false;
     }
     return true;
 }
 
-/* The limit is better by a level, and nothing is worse. */
+/* Which part the finding comes from. */
+static judge_part part_of(const judge *j, const plan_moves *m, const judgement *now, int which)
+{
+    for (int k = 0;; k++) {
+        judgement some = {.reason = -1};
+        assert(k < PARTS);
+        parts[k](j, m, &some);
+        for (int i = 0; i < some.count; i++)
+            if (counterpart(now, &some.finding[i]) == &now->finding[which]) return parts[k];
+    }
+}
+
+/* The limit is better by a level, and nothing is worse. Most changes fail at the limit itself, which is asked first. */
 static bool helps(const trial *t, change c, double by)
 {
     plan_file plan = t->plan;
     plan_moves m;
     issue_list ignored = {0};
-    judgement then;
     apply(&plan, &t->p->frame, c, by);
-    bool made = plan_moves_set(&plan, t->c, &t->p->points, &m, &ignored);
+    bool ok = plan_moves_set(&plan, t->c, &t->p->points, &m, &ignored);
     issue_list_free(&ignored);
-    if (!made) return false;
-    if (!cheap_ones_allow(t, &m)) return false;
-    judge_plan(t->j, &m, &then);
-    for (int i = 0; i < then.count; i++)
-        if (then.finding[i].level > t->now->finding[i].level) return false;
-    return then.finding[t->which].level < t->now->finding[t->which].level;
+    ok = ok && allows(t, t->first, &m);
+    for (int k = 0; ok && k < PARTS; k++) ok = parts[k] == t->first || allows(t, parts[k], &m);
+    return ok;
 }
 
 /* The least amount that helps, HUGE_VAL if none does; not looked for beyond `limit_by`. */
@@ -144,7 +167,13 @@ bool remedy_find(const judge *j, const case_file *c, const prepared *p, const pl
 {
     trial t = {.j = j, .c = c, .p = p, .plan = opened(plan, &p->frame), .now = now, .which = which};
     double best = HUGE_VAL;
+    plan_moves m;
+    issue_list ignored = {0};
     text[0] = 0;
+    bool made = plan_moves_set(&t.plan, c, &p->points, &m, &ignored);
+    issue_list_free(&ignored);
+    if (!made) return false;
+    t.first = part_of(j, &m, now, which);
     for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++) {
         if (!concerns(&now->finding[which], (segment_id)s)) continue;
         for (int k = 0; k < SHIFTS + TURNS; k++) {

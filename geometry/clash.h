@@ -3,7 +3,8 @@
  * Bodies stay where they are at rest; queries are carried instead. rel takes the moved body into the frame of the
  * still one. All queries are const and thread-safe, and give the same bits on any number of threads. */
 #pragma once
-#include "geometry/nearest.h"
+#include "geometry/distance_tree.h"
+#include "geometry/rigid.h"
 #include "geometry/solid_grid.h"
 #ifdef __cplusplus
 extern "C" {
@@ -21,13 +22,13 @@ clash_params clash_params_default(void); /* 0.7, 0.7, 0.02, all */
 typedef struct clash_body clash_body;
 
 /* Borrows s (closed, outward) until clash_body_free. kind[triangle_count] (may be NULL: all 1) puts every triangle
- * into sets, as bits. Refuses what nearest_create and solid_grid_make refuse. */
+ * into sets, as bits. Refuses what solid_grid_make refuses. */
 bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *p, clash_body **out,
                      err *e) MUST_CHECK;
 void clash_body_free(clash_body **b); /* idempotent */
 
 const solid_grid *clash_body_grid(const clash_body *b);
-const nearest *clash_body_tree(const clash_body *b);
+const distance_tree *clash_body_tree(const clash_body *b);
 
 /* mm^3 that both fill, to about 1 %: every cell of the moved body's lattice stands for its own bone. */
 double clash_volume(const clash_body *still, const clash_body *moved, const rigid *rel);

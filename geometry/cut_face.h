@@ -19,7 +19,7 @@ typedef struct cut_face {
 
 typedef struct cut_bones { /* borrowed: the bones of a case with their trees, NULL where there is no such bone */
     const segments *bones;
-    const nearest *part[SEGMENT_COUNT], *kerf;
+    const distance_tree *part[SEGMENT_COUNT], *kerf;
 } cut_bones;
 
 /* The triangles of `own` that lie on the saw's bone and face `other`. May be empty. The caller frees. */
@@ -34,11 +34,11 @@ typedef struct cut_contact {
 } cut_contact;
 
 /* rel takes the face's bone into the frame of the other. other_face NULL: no gap is asked for. */
-cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel,
+cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const distance_tree *other_face, const rigid *rel,
                                 double touch_mm);
 /* Of the face within the other bone, the part farthest from that bone's own face: the depth of bone that must go. place
  * in the frame of the other bone; not found: no part is within it. */
-clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel);
+clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const distance_tree *other_face, const rigid *rel);
 
 typedef struct cut_place { /* two points that the saw parted */
     double own[3], other[3], n[3]; /* n: from own to other */

@@ -10,7 +10,7 @@ extern "C" {
 
 typedef struct solid_grid solid_grid; /* queries are const and thread-safe */
 
-/* Borrows s until solid_grid_free. box[6] (low, high) may be NULL: what lies outside it is left out, as if the body ended
+/* Copies what it needs of s. box[6] (low, high) may be NULL: what lies outside it is left out, as if the body ended
  * there. Refuses (ERR_GEOMETRY) a surface that is empty or not closed. */
 bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_grid **out, err *e) MUST_CHECK;
 void solid_grid_free(solid_grid **g); /* idempotent */
@@ -18,8 +18,8 @@ void solid_grid_free(solid_grid **g); /* idempotent */
 bool solid_grid_inside(const solid_grid *g, const double p[3]);
 /* The surface is at least this far from p, mm; 0 near it. Cheap. */
 double solid_grid_clear(const solid_grid *g, const double p[3]);
-/* The surface is within reach_mm of p; meant for a reach of about a step. */
-bool solid_grid_touches(const solid_grid *g, const double p[3], double reach_mm);
+/* Both at once. */
+bool solid_grid_look(const solid_grid *g, const double p[3], double *clear);
 
 #ifdef __cplusplus
 }

@@ -207,8 +207,8 @@ static json_t *limits_json(const audit *a)
 bool audit_json(const audit *a, json_t **out, err *e)
 {
     int32_t zero[SAMPLE_AXES_MAX] = {0};
-    json_t *lines = json_array(), *maps = json_array(), *one, *always = NULL;
-    bool ok = throughout_json(a, &always, e);
+    json_t *lines = json_array(), *maps = json_array(), *one, *always = NULL, *unknown = NULL;
+    bool ok = throughout_json(a, &always, e) && audit_not_judged(a, &unknown, e);
     for (int i = 0; ok && i < a->settings.request_count; i++) {
         if (a->map[i].node_count) json_array_append_new(maps, map_json(a, i));
         else if ((ok = line_json(a, i, &one, e))) json_array_append_new(lines, one);
@@ -219,11 +219,13 @@ bool audit_json(const audit *a, json_t **out, err *e)
                          "tolerance", a->settings.tolerance, "step", a->step, "base", place_json(a, zero), "points",
                          (json_int_t)a->points.count, "bounds", lines, "maps", maps, "limits", limits_json(a));
         json_object_set_new(*out, "throughout", always);
+        json_object_set_new(*out, "not_judged", unknown);
         json_object_set_new(*out, "tissue", a->tissue_asked ? tissue_json(a) : json_null());
     } else {
         json_decref(lines);
         json_decref(maps);
         json_decref(always);
+        json_decref(unknown);
     }
     return ok;
 }
@@ -280,6 +282,7 @@ bool audit_print(const audit *a, err *e)
         }
     }
     print_throughout(a);
+    if (!audit_print_not_judged(a, e)) return false;
     if (a->tissue_asked)
         printf("\nsoft tissue solved at %d points on the rim of what bone and teeth allow, of %lld they allow\n",
                a->tissue.count, (long long)json_integer_value(json_object_get(solves, "points_that_bone_and_teeth_allow")));

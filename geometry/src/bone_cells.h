@@ -2,15 +2,16 @@
 #pragma once
 #include "geometry/solid_grid.h"
 
-typedef struct bone_block { /* cells first .. first + count */
+typedef struct bone_block { /* members first .. first + count, within radius of centre */
     double centre[3], radius, mm3;
     int32_t first, count;
 } bone_block;
 
 typedef struct bone_cells {
-    int32_t count, block_count;
-    double *lump; /* [4*count] middle of the bone in the cell, its volume */
-    bone_block *block;
+    int32_t count, part_count, block_count;
+    double *lump;      /* [4*count] middle of the bone in the cell, its volume */
+    bone_block *part;  /* of up to 2 x 2 x 2 lumps */
+    bone_block *block; /* of up to 2 x 2 x 2 parts */
 } bone_cells;
 
 /* Cells of a lattice that lies aslant to all axes, so that no plane of the bone runs along it; those at the surface

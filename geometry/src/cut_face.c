@@ -25,23 +25,25 @@ static double normal_of(const surface *s, int32_t t, double middle[3], double n[
     return vec_normalize(n) / 2;
 }
 
-/* The saw's bone, which lies within low and high, touches the triangle from outside, and `other` is the bone behind. */
+/* The saw's bone, which lies within low and high, touches the triangle from outside, and `other` is the bone
+ * behind. */
 static bool is_cut(const cut_bones *b, segment_id own, segment_id other, int32_t t, const double low[3],
                    const double high[3])
 {
-    double middle[3], n[3], at[3], m[3], k[3];
-    int32_t hit;
+    double middle[3], n[3], m[3], k[3];
+    distance_hit hit;
     if (!(normal_of(&b->bones->part[own], t, middle, n) > 0)) return false;
     for (int c = 0; c < 3; c++)
         if (middle[c] < low[c] - on_kerf_mm || middle[c] > high[c] + on_kerf_mm) return false;
-    if (nearest_point(b->kerf, middle, at, &hit) > on_kerf_mm) return false;
-    normal_of(&b->bones->kerf, hit, m, k);
+    if (distance_tree_between(b->kerf, middle, 0, 2 * on_kerf_mm, &hit) > on_kerf_mm) return false;
+    normal_of(&b->bones->kerf, hit.triangle, m, k);
     if (vec_dot(n, k) > -0.9) return false;
-    double mine = nearest_point(b->part[other], middle, NULL, NULL);
+    double mine = distance_tree_between(b->part[other], middle, 0, facing_mm, NULL);
+    if (mine >= facing_mm) return false;
     for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (s != (int)own && s != (int)other && b->part[s] && nearest_point(b->part[s], middle, NULL, NULL) < mine)
+        if (s != (int)own && s != (int)other && b->part[s] && distance_tree_within(b->part[s], middle, mine))
             return false;
-    return mine < facing_mm;
+    return true;
 }
 
 /* ---- samples: pieces of triangles, put together by the box they lie in ---- */
@@ -136,24 +138,27 @@ cut_face cut_face_towards(const cut_face *f, const double way[3], double cosine,
     return out;
 }
 
-cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel,
-                                double touch_mm)
+cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const distance_tree *other_face,
+                                const rigid *rel, double touch_mm)
 {
     cut_contact c = {0};
     double opening = 0, facing = 0;
     const solid_grid *grid = clash_body_grid(other);
     for (int32_t i = 0; i < f->count; i++) {
         const cut_sample *s = &f->sample[i];
-        double p[3], n[3], at[3];
+        double p[3], n[3];
+        distance_hit hit;
         rigid_apply(rel, s->p, p);
-        bool inside = solid_grid_inside(grid, p);
-        if (inside || solid_grid_touches(grid, p, touch_mm)) c.mm2 += s->mm2;
+        double clear;
+        bool inside = solid_grid_look(grid, p, &clear);
+        if (inside || (clear < touch_mm && distance_tree_within(clash_body_tree(other), p, touch_mm))) c.mm2 += s->mm2;
         if (inside) facing += s->mm2;
-        if (inside || !other_face || solid_grid_clear(grid, p) > sight_mm) continue;
-        double d = nearest_point(other_face, p, at, NULL);
-        vec_sub(at, p, at);
+        if (inside || !other_face || clear > sight_mm) continue;
+        double d = distance_tree_between(other_face, p, 0, sight_mm, &hit);
+        if (d >= sight_mm) continue;
+        vec_sub(hit.at, p, hit.at);
         rigid_rotate(rel, s->n, n);
-        if (d > sight_mm || vec_dot(at, n) < 0.7 * d) continue;
+        if (vec_dot(hit.at, n) < 0.7 * d) continue;
         facing += s->mm2;
         opening += d * s->mm2;
     }
@@ -161,14 +166,15 @@ cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, cons
     return c;
 }
 
-clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const nearest *other_face, const rigid *rel)
+clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const distance_tree *other_face,
+                         const rigid *rel)
 {
     clash_spot spot = {0};
     for (int32_t i = 0; i < f->count; i++) {
         double p[3];
         rigid_apply(rel, f->sample[i].p, p);
         if (!solid_grid_inside(clash_body_grid(other), p)) continue;
-        double d = nearest_point(other_face, p, NULL, NULL);
+        double d = distance_tree_between(other_face, p, spot.mm, HUGE_VAL, NULL);
         if (d <= spot.mm) continue;
         spot.mm = d;
         spot.found = true;

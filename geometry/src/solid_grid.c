@@ -1,330 +1,67 @@
-#include "geometry/solid_grid.h"
 #include "geometry/mem.h"
-#include "geometry/vec.h"
+#include "geometry/src/grid_cubes.h"
 #include <stdlib.h>
-#include <string.h>
-
-struct solid_grid {
-    const surface *s;
-    double low[3], step;
-    int32_t n[3];
-    int32_t *start; /* [cells + 1] into item */
-    int32_t *item;  /* triangles that may meet the cube */
-    uint8_t *away;  /* cubes to the nearest one with triangles, in the maximum norm, at most 255 */
-    uint8_t *inside; /* of the cube's own point */
-};
-
-/* Of the cube's own point, in cubes: off any plane that a surface may have. */
-static const double own_point[3] = {0.5137, 0.4789, 0.5227};
-
-static size_t cell(const solid_grid *g, const int32_t i[3])
-{
-    return ((size_t)i[2] * (size_t)g->n[1] + (size_t)i[1]) * (size_t)g->n[0] + (size_t)i[0];
-}
-
-static void locate(const solid_grid *g, const double p[3], int32_t i[3])
-{
-    for (int c = 0; c < 3; c++) i[c] = (int32_t)floor((p[c] - g->low[c]) / g->step);
-}
-
-static bool within(const solid_grid *g, const int32_t i[3])
-{
-    for (int c = 0; c < 3; c++)
-        if (i[c] < 0 || i[c] >= g->n[c]) return false;
-    return true;
-}
-
-/* Where the straight way from p by `way` crosses the triangle, as a share of it; false if it does not. */
-static bool crosses(const surface *s, int32_t t, const double p[3], const double way[3], double *share)
-{
-    const int32_t *v = s->tri + 3 * (size_t)t;
-    const double *a = s->xyz + 3 * (size_t)v[0];
-    double e1[3], e2[3], h[3], o[3], q[3];
-    vec_sub(s->xyz + 3 * (size_t)v[1], a, e1);
-    vec_sub(s->xyz + 3 * (size_t)v[2], a, e2);
-    vec_cross(way, e2, h);
-    double det = vec_dot(e1, h);
-    if (det == 0) return false;
-    vec_sub(p, a, o);
-    double u = vec_dot(o, h) / det;
-    if (!(u >= 0 && u <= 1)) return false;
-    vec_cross(o, e1, q);
-    double w = vec_dot(way, q) / det;
-    if (!(w >= 0 && u + w <= 1)) return false;
-    *share = vec_dot(e2, q) / det;
-    return *share >= 0 && *share < 1;
-}
-
-static int crossings(const solid_grid *g, size_t c, const double p[3], const double way[3], double from, double to)
-{
-    int count = 0;
-    double share;
-    for (int32_t k = g->start[c]; k < g->start[c + 1]; k++)
-        count += crosses(g->s, g->item[k], p, way, &share) && share >= from && share < to;
-    return count;
-}
-
-/* The cubes that meet the triangle's box; false if none of the grid's does. */
-static bool reach(const solid_grid *g, int32_t t, int32_t from[3], int32_t to[3])
-{
-    double low[3], high[3];
-    for (int c = 0; c < 3; c++) {
-        low[c] = HUGE_VAL;
-        high[c] = -HUGE_VAL;
-        for (int k = 0; k < 3; k++) {
-            double x = g->s->xyz[3 * (size_t)g->s->tri[3 * (size_t)t + (size_t)k] + (size_t)c];
-            low[c] = fmin(low[c], x);
-            high[c] = fmax(high[c], x);
-        }
-    }
-    locate(g, low, from);
-    locate(g, high, to);
-    bool meets = true;
-    for (int c = 0; c < 3; c++) {
-        meets = meets && to[c] >= 0 && from[c] < g->n[c];
-        from[c] = from[c] < 0 ? 0 : from[c];
-        to[c] = to[c] < g->n[c] ? to[c] : g->n[c] - 1;
-    }
-    return meets;
-}
-
-/* Counts the triangle in every cube that it may meet, or enters it there once item exists. */
-static void enter(solid_grid *g, int32_t t, int32_t *fill)
-{
-    int32_t i[3], from[3], to[3];
-    const double *a = g->s->xyz + 3 * (size_t)g->s->tri[3 * (size_t)t];
-    double e1[3], e2[3], n[3];
-    if (!reach(g, t, from, to)) return;
-    vec_sub(g->s->xyz + 3 * (size_t)g->s->tri[3 * (size_t)t + 1], a, e1);
-    vec_sub(g->s->xyz + 3 * (size_t)g->s->tri[3 * (size_t)t + 2], a, e2);
-    vec_cross(e1, e2, n);
-    const double half = (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * g->step / 2 * (1 + 1e-9), level = vec_dot(n, a);
-    for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
-        for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
-            for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
-                const double middle[3] = {g->low[0] + g->step * (i[0] + 0.5), g->low[1] + g->step * (i[1] + 0.5),
-                                          g->low[2] + g->step * (i[2] + 0.5)};
-                size_t c = cell(g, i);
-                if (fabs(vec_dot(n, middle) - level) > half) continue; /* the triangle's plane passes it by */
-                if (g->item)
-                    g->item[fill[c]++] = t;
-                else
-                    g->start[c + 1]++;
-            }
-}
-
-static void sort_triangles(solid_grid *g, size_t cells)
-{
-    g->start = NEW_ARRAY(int32_t, cells + 1);
-    for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, NULL);
-    for (size_t c = 0; c < cells; c++) g->start[c + 1] += g->start[c];
-    int32_t *fill = COPY_ARRAY(int32_t, g->start, cells);
-    g->item = NEW_ARRAY(int32_t, g->start[cells]);
-    for (int32_t t = 0; t < g->s->triangle_count; t++) enter(g, t, fill);
-    free(fill);
-}
-
-/* Distances to full cubes, by two sweeps over half of the neighbours each. */
-static void sweep(solid_grid *g, int way)
-{
-    int32_t i[3];
-    const int64_t row = g->n[0], layer = row * g->n[1];
-    int64_t step[13];
-    int offset[13][3];
-    for (int d = 0; d < 13; d++) { /* the neighbours already passed */
-        for (int c = 0, rest = d; c < 3; c++, rest /= 3) offset[d][c] = way * (rest % 3 - 1);
-        step[d] = offset[d][0] + row * offset[d][1] + layer * offset[d][2];
-    }
-    for (int32_t a = 0; a < g->n[2]; a++)
-        for (int32_t b = 0; b < g->n[1]; b++)
-            for (int32_t c = 0; c < g->n[0]; c++) {
-                i[2] = way > 0 ? a : g->n[2] - 1 - a;
-                i[1] = way > 0 ? b : g->n[1] - 1 - b;
-                i[0] = way > 0 ? c : g->n[0] - 1 - c;
-                uint8_t *at = g->away + cell(g, i);
-                int least = *at;
-                if (!least) continue;
-                bool edge = a == 0 || b == 0 || c == 0 || a == g->n[2] - 1 || b == g->n[1] - 1 || c == g->n[0] - 1;
-                for (int d = 0; d < 13; d++) {
-                    const int32_t k[3] = {i[0] + offset[d][0], i[1] + offset[d][1], i[2] + offset[d][2]};
-                    if (edge && !within(g, k)) continue;
-                    int beside = at[step[d]] + 1;
-                    least = beside < least ? beside : least;
-                }
-                *at = (uint8_t)least;
-            }
-}
-
-static void own_of(const solid_grid *g, const int32_t i[3], double p[3])
-{
-    for (int c = 0; c < 3; c++) p[c] = g->low[c] + g->step * (i[c] + own_point[c]);
-}
-
-/* Whether the first cube's own point of each row is inside: by what lies before it, of which the grid knows nothing. */
-static void start_rows(solid_grid *g)
-{
-    int32_t i[3], from[3], to[3];
-    for (int32_t t = 0; t < g->s->triangle_count; t++) {
-        double x = HUGE_VAL, share;
-        for (int k = 0; k < 3; k++) x = fmin(x, g->s->xyz[3 * (size_t)g->s->tri[3 * (size_t)t + (size_t)k]]);
-        if (x > g->low[0] + g->step) continue;
-        const double way[3] = {x - 1 - g->low[0] - g->step, 0, 0}; /* far enough to be outside */
-        (void)reach(g, t, from, to);
-        i[0] = 0;
-        for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
-            for (i[1] = from[1]; i[1] <= to[1]; i[1]++) {
-                double p[3];
-                own_of(g, i, p);
-                if (crosses(g->s, t, p, way, &share)) g->inside[cell(g, i)] ^= 1;
-            }
-    }
-}
-
-/* Along each row of cubes. False if a row that should end outside does not. */
-static bool find_inside(solid_grid *g, bool whole)
-{
-    int32_t i[3];
-    const double way[3] = {g->step, 0, 0};
-    const double wall = 1 - own_point[0]; /* the next cube begins at this share of the way */
-    start_rows(g);
-    for (i[2] = 0; i[2] < g->n[2]; i[2]++)
-        for (i[1] = 0; i[1] < g->n[1]; i[1]++) {
-            i[0] = 0;
-            int in = g->inside[cell(g, i)];
-            for (; i[0] + 1 < g->n[0]; i[0]++) {
-                size_t c = cell(g, i);
-                if (!g->away[c] || !g->away[c + 1]) {
-                    double p[3];
-                    own_of(g, i, p);
-                    in ^= (crossings(g, c, p, way, 0, wall) + crossings(g, c + 1, p, way, wall, 1)) & 1;
-                }
-                g->inside[c + 1] = (uint8_t)in;
-            }
-            if (in && whole) return false;
-        }
-    return true;
-}
-
-bool solid_grid_make(const surface *s, double step_mm, const double *box, solid_grid **out, err *e)
-{
-    if (!s->triangle_count) return err_set(e, ERR_GEOMETRY, "a surface without triangles has no inside");
-    solid_grid *g = NEW_ARRAY(solid_grid, 1);
-    double high[3];
-    bool whole = true;
-    g->s = s;
-    g->step = step_mm;
-    surface_bounds(s, g->low, high);
-    size_t cells = 1;
-    for (int c = 0; c < 3; c++) {
-        whole = whole && (!box || box[3 + c] >= high[c]);
-        if (box) {
-            g->low[c] = fmax(g->low[c], box[c]);
-            high[c] = fmax(fmin(high[c], box[3 + c]), g->low[c]);
-        }
-        g->low[c] -= 1.5 * step_mm; /* the outermost cubes are empty */
-        g->n[c] = (int32_t)ceil((high[c] - g->low[c]) / step_mm) + 2;
-        cells *= (size_t)g->n[c];
-    }
-    sort_triangles(g, cells);
-    g->away = NEW_ARRAY(uint8_t, cells);
-    g->inside = NEW_ARRAY(uint8_t, cells);
-    for (size_t c = 0; c < cells; c++) g->away[c] = g->start[c] == g->start[c + 1] ? 255 : 0;
-    sweep(g, 1);
-    sweep(g, -1);
-    if (!find_inside(g, whole)) {
-        solid_grid_free(&g);
-        return err_set(e, ERR_GEOMETRY, "the surface is not closed");
-    }
-    *out = g;
-    return true;
-}
 
 void solid_grid_free(solid_grid **g)
 {
     if (!*g) return;
     free((*g)->start);
     free((*g)->item);
-    free((*g)->away);
-    free((*g)->inside);
+    free((*g)->triangle);
+    free((*g)->cube);
     free(*g);
     *g = NULL;
+}
+
+/* Its own point's side is known; a point of a cube with triangles is compared with that. */
+static bool same_side(const solid_grid *g, const int32_t i[3], size_t c, const double p[3])
+{
+    double own[3], way[3];
+    own_of(g, i, own);
+    vec_sub(own, p, way);
+    return !(crossings(g, c, p, way, 0, 1) & 1);
+}
+
+static double outside_box(const solid_grid *g, const double p[3])
+{
+    double d[3];
+    for (int c = 0; c < 3; c++) d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
+    return vec_norm(d);
+}
+
+static double clear_in(const solid_grid *g, size_t c)
+{
+    return g->cube[c].away > 1 ? (g->cube[c].away - 1) * g->step : 0;
+}
+
+static bool inside_in(const solid_grid *g, const int32_t i[3], size_t c, const double p[3])
+{
+    return (g->cube[c].away || same_side(g, i, c, p)) == g->cube[c].inside;
 }
 
 bool solid_grid_inside(const solid_grid *g, const double p[3])
 {
     int32_t i[3];
-    double own[3], way[3];
     locate(g, p, i);
-    if (!within(g, i)) return false;
-    size_t c = cell(g, i);
-    if (g->away[c]) return g->inside[c];
-    own_of(g, i, own);
-    vec_sub(own, p, way);
-    return (crossings(g, c, p, way, 0, 1) & 1) != g->inside[c];
+    return within(g, i) && inside_in(g, i, place(g, i), p);
 }
 
 double solid_grid_clear(const solid_grid *g, const double p[3])
 {
     int32_t i[3];
     locate(g, p, i);
-    if (within(g, i)) {
-        int away = g->away[cell(g, i)];
-        return away > 1 ? (away - 1) * g->step : 0;
-    }
-    double d[3];
-    for (int c = 0; c < 3; c++)
-        d[c] = fmax(fmax(g->low[c] - p[c], p[c] - (g->low[c] + g->n[c] * g->step)), 0);
-    return vec_norm(d);
+    return within(g, i) ? clear_in(g, place(g, i)) : outside_box(g, p);
 }
 
-/* Squared distance from p to the triangle (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5). */
-static double square_to_triangle(const surface *s, int32_t t, const double p[3])
+bool solid_grid_look(const solid_grid *g, const double p[3], double *clear)
 {
-    const double *x[3];
-    double ab[3], ac[3], ap[3], d[3], near[3];
-    for (int k = 0; k < 3; k++) x[k] = s->xyz + 3 * (size_t)s->tri[3 * (size_t)t + (size_t)k];
-    vec_sub(x[1], x[0], ab);
-    vec_sub(x[2], x[0], ac);
-    vec_sub(p, x[0], ap);
-    double d1 = vec_dot(ab, ap), d2 = vec_dot(ac, ap), aa = vec_dot(ab, ab), bb = vec_dot(ac, ac), m = vec_dot(ab, ac),
-           d3 = d1 - aa, d4 = d2 - m, d5 = d1 - m, d6 = d2 - bb, vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6,
-           va = d3 * d6 - d5 * d4, v, w;
-    if (d1 <= 0 && d2 <= 0)
-        v = w = 0;
-    else if (d3 >= 0 && d4 <= d3)
-        v = 1, w = 0;
-    else if (d6 >= 0 && d5 <= d6)
-        v = 0, w = 1;
-    else if (vc <= 0 && d1 >= 0 && d3 <= 0)
-        v = d1 / (d1 - d3), w = 0;
-    else if (vb <= 0 && d2 >= 0 && d6 <= 0)
-        v = 0, w = d2 / (d2 - d6);
-    else if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-        w = (d4 - d3) / (d4 - d3 + d5 - d6), v = 1 - w;
-    else
-        v = vb / (va + vb + vc), w = vc / (va + vb + vc);
-    for (int c = 0; c < 3; c++) near[c] = x[0][c] + v * ab[c] + w * ac[c];
-    vec_sub(p, near, d);
-    return vec_dot(d, d);
-}
-
-bool solid_grid_touches(const solid_grid *g, const double p[3], double reach_mm)
-{
-    int32_t i[3], from[3], to[3];
-    double low[3], high[3];
-    for (int c = 0; c < 3; c++) {
-        low[c] = p[c] - reach_mm;
-        high[c] = p[c] + reach_mm;
+    int32_t i[3];
+    locate(g, p, i);
+    if (!within(g, i)) {
+        *clear = outside_box(g, p);
+        return false;
     }
-    locate(g, low, from);
-    locate(g, high, to);
-    for (i[2] = from[2]; i[2] <= to[2]; i[2]++)
-        for (i[1] = from[1]; i[1] <= to[1]; i[1]++)
-            for (i[0] = from[0]; i[0] <= to[0]; i[0]++) {
-                if (!within(g, i)) continue;
-                size_t c = cell(g, i);
-                for (int32_t k = g->start[c]; k < g->start[c + 1]; k++)
-                    if (square_to_triangle(g->s, g->item[k], p) <= reach_mm * reach_mm) return true;
-            }
-    return false;
+    size_t c = place(g, i);
+    *clear = clear_in(g, c);
+    return inside_in(g, i, c, p);
 }

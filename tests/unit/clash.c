@@ -4,6 +4,7 @@
 #include "geometry/boolean.h"
 #include "geometry/clash.h"
 #include "geometry/cut_face.h"
+#include "geometry/nearest.h"
 #include "geometry/vec.h"
 
 static const double mm = 0.05, share = 0.01; /* what is promised */
@@ -57,7 +58,10 @@ static void inside_is_exact(void **state)
             p[c] = (c == 2 ? 5 : c ? -2 : 3) + 20 * ((seed >> 8) / 16777216.0 - 0.5);
         }
         assert_int_equal(solid_grid_inside(g, p), nearest_inside(tree, p));
-        assert_true(solid_grid_clear(g, p) <= nearest_point(tree, p, NULL, NULL) + 1e-12);
+        double clear, d = nearest_point(tree, p, NULL, NULL);
+        assert_true(solid_grid_clear(g, p) <= d + 1e-12);
+        assert_int_equal(solid_grid_look(g, p, &clear), solid_grid_inside(g, p));
+        assert_true(clear == solid_grid_clear(g, p));
     }
     const double box[6] = {1, -4, 0, 5, 8, 9}; /* part of it */
     solid_grid *part;
@@ -69,9 +73,6 @@ static void inside_is_exact(void **state)
             p[c] = box[c] + (box[3 + c] - box[c]) * (seed >> 8) / 16777216.0;
         }
         assert_int_equal(solid_grid_inside(part, p), nearest_inside(tree, p));
-        double d = nearest_point(tree, p, NULL, NULL);
-        if (d < 0.39) assert_true(solid_grid_touches(part, p, 0.4));
-        if (d > 0.41) assert_false(solid_grid_touches(part, p, 0.4));
     }
     solid_grid_free(&part);
     surface lid = body_box(0, 0, 0, 5, 5, 5);
@@ -82,6 +83,38 @@ static void inside_is_exact(void **state)
     solid_grid_free(&g);
     nearest_destroy(&tree);
     surface_free(&ball);
+}
+
+/* Against CGAL's tree, near the surface and far from it; within its bounds exact, beyond them on the right side. */
+static void distances_are_those_of_cgal_between_their_bounds(void **state)
+{
+    (void)state;
+    err e = {0};
+    surface s = body_with(body_ball(103, -2, 5, 7, 24), body_box(90, 0, 0, 97, 20, 3)), nothing = {0};
+    distance_tree *tree = distance_tree_make(&s), *empty = distance_tree_make(&nothing);
+    nearest *cgal;
+    assert_ok(nearest_create(&s, &cgal, &e));
+    unsigned seed = 7;
+    for (int i = 0; i < 3000; i++) {
+        double p[3], at[3];
+        distance_hit hit;
+        for (int c = 0; c < 3; c++) {
+            seed = seed * 1664525u + 1013904223u;
+            p[c] = (c ? 0 : 100) + (i % 3 ? 30 : 3000) * ((seed >> 8) / 16777216.0 - 0.5);
+        }
+        double d = nearest_point(cgal, p, at, NULL);
+        assert_near(distance_tree_to(tree, p, &hit), d, 1e-9);
+        assert_near(vec_distance(p, hit.at), d, 1e-9);
+        assert_near(distance_tree_between(tree, p, 0.9 * d, 1.1 * d, NULL), d, 1e-9);
+        assert_true(distance_tree_between(tree, p, 1.1 * d, HUGE_VAL, NULL) <= 1.1 * d);
+        assert_true(distance_tree_between(tree, p, 0, 0.9 * d, NULL) == 0.9 * d);
+        assert_true(distance_tree_within(tree, p, 1.001 * d) && !distance_tree_within(tree, p, 0.999 * d));
+        assert_true(distance_tree_between(empty, p, 0, 5, NULL) == 5);
+    }
+    nearest_destroy(&cgal);
+    distance_tree_free(&tree);
+    distance_tree_free(&empty);
+    surface_free(&s);
 }
 
 static void a_known_gap_is_found(void **state)
@@ -219,25 +252,22 @@ static void sets_of_triangles_are_told_apart(void **state)
 static void faces_of_a_cut_open_step_and_overlap(void **state)
 {
     (void)state;
-    err e = {0};
     segments s = {0};
     s.part[SEGMENT_CRANIUM] = body_box(0, 0, 0.25, 30, 20, 20);
     s.part[SEGMENT_MAXILLA] = body_box(0, 0, -15, 30, 20, -0.25);
     s.kerf = body_box(0, 0, -0.25, 30, 20, 0.25);
     clash_body *still = body(&s.part[SEGMENT_CRANIUM]), *moved = body(&s.part[SEGMENT_MAXILLA]);
-    nearest *saw;
-    assert_ok(nearest_create(&s.kerf, &saw, &e));
+    distance_tree *saw = distance_tree_make(&s.kerf);
     cut_bones bones = {.bones = &s, .kerf = saw};
     bones.part[SEGMENT_CRANIUM] = clash_body_tree(still);
     bones.part[SEGMENT_MAXILLA] = clash_body_tree(moved);
     cut_face upper = cut_face_make(&bones, SEGMENT_CRANIUM, SEGMENT_MAXILLA, 1.2),
              lower = cut_face_make(&bones, SEGMENT_MAXILLA, SEGMENT_CRANIUM, 1.2);
-    nearest_destroy(&saw);
+    distance_tree_free(&saw);
     assert_near(lower.mm2, 600, 1e-9);
     assert_near(upper.mm2, 600, 1e-9);
     assert_int_equal(lower.shell.triangle_count, 2);
-    nearest *tree;
-    assert_ok(nearest_create(&upper.shell, &tree, &e));
+    distance_tree *tree = distance_tree_make(&upper.shell);
     cut_place at;
     const double corner[3] = {0, 0, 0};
     double step;
@@ -268,7 +298,7 @@ static void faces_of_a_cut_open_step_and_overlap(void **state)
     (void)cut_place_gap(&at, &slide, &step);
     assert_near(step, 12, 1e-9);
 
-    nearest_destroy(&tree);
+    distance_tree_free(&tree);
     clash_body_free(&still);
     clash_body_free(&moved);
     cut_face_free(&upper);
@@ -280,6 +310,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(inside_is_exact),
+        cmocka_unit_test(distances_are_those_of_cgal_between_their_bounds),
         cmocka_unit_test(a_known_gap_is_found),
         cmocka_unit_test(a_known_overlap_is_measured),
         cmocka_unit_test(overlap_of_turned_bodies_is_that_of_corefinement),
