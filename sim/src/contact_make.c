@@ -226,7 +226,6 @@ static void make_links(contact *c, const attach_map *a)
 /* Gaps at rest, from which thresholds follow. */
 static void measure_rest(contact *c, const tetmesh *m)
 {
-    static const double unknown_gap_mm = 3; /* shapes may not know larger ones */
     rigid still[SEGMENT_COUNT], guide = rigid_identity();
     for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
     contact_move(c, still, &guide, m->xyz);
@@ -246,7 +245,6 @@ static void measure_rest(contact *c, const tetmesh *m)
         double rest = isfinite(link->gap) ? link->gap : link->plane_mm < 0 ? link->plane_mm : HUGE_VAL;
         link->threshold_mm = fmin(c->setup.params.activation_mm, rest);
         link->depth_from_mm = fmin(0, rest);
-        link->rest_gap_mm = fmin(fmax(rest, 0), unknown_gap_mm);
     }
 }
 

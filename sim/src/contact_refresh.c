@@ -108,7 +108,7 @@ static bool find_way_back(const contact *c, int32_t i, contact_link *link, const
 }
 
 /* A shape knows its inside, but of a thin bone not the side from which the node came: where a node would be pushed on
- * the way that it went, or has gone through, it sees the plane at its way back. */
+ * the way that it went, it sees the plane at its way back. Right through a bone it goes unseen. */
 static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const double *x)
 {
     const bone_shape *shape = c->setup.shape[link->collider];
@@ -117,9 +117,8 @@ static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const 
     link->plane_mm = HUGE_VAL;
     link->scale = link->cover = 1;
     double d = shape->distance(shape->context, at, grad, NULL);
-    bool inside = d < 0, wrong = inside && vec_dot(grad, facing) <= backwards * vec_norm(grad);
-    bool may_have_passed = !inside && vec_distance(at, c->rest_xyz + 3 * (size_t)c->node[i]) > link->rest_gap_mm;
-    link->flat = (wrong || may_have_passed) && find_way_back(c, i, link, at, facing);
+    bool wrong = d < 0 && vec_dot(grad, facing) <= backwards * vec_norm(grad);
+    link->flat = wrong && find_way_back(c, i, link, at, facing);
     link->lost = wrong && !link->flat && d < -deep_mm;
     link->near = link->flat || (d < HUGE_VAL && !link->lost);
 }

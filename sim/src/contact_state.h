@@ -11,11 +11,10 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side, or it has passed through */
+    bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
     bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
                  */
     double threshold_mm;  /* tau */
-    double rest_gap_mm;   /* to a shape; a node that moved less against it cannot have passed through */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
     /* frozen at refresh */

@@ -226,7 +226,7 @@ static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energ
 }
 
 /* A plate 1 mm thick comes up from 0.2 mm below the tissue: where that does not feel it, the tissue lies beyond the
- * plate's middle, from where the nearest way out leads below, or has passed through it. */
+ * plate's middle, from where the nearest way out leads below. */
 static void tissue_comes_back_to_its_own_side_of_a_thin_bone(void **state)
 {
     (void)state;
@@ -239,15 +239,12 @@ static void tissue_comes_back_to_its_own_side_of_a_thin_bone(void **state)
     touch.extra = bottom;
     s.problem.contact = &touch;
     solve_params params = solve_params_default();
-    for (int through = 0; through < 2; through++) {
-        double up = through ? 1.6 : 1;
-        s.problem.motion[SEGMENT_MAXILLA] = rigid_translation((double[]){0, 0, up});
-        equilibrium q = solve(&s, &params);
-        assert_int_equal(q.outcome, SOLVED);
-        for (int32_t i = 0; i < touch.extra_count; i++) assert_true(q.xyz[3 * (size_t)bottom[i] + 2] > up + 0.5 - 0.1);
-        assert_int_equal(q.contact.lost, 0);
-        equilibrium_free(&q);
-    }
+    s.problem.motion[SEGMENT_MAXILLA] = rigid_translation((double[]){0, 0, 1});
+    equilibrium q = solve(&s, &params);
+    assert_int_equal(q.outcome, SOLVED);
+    for (int32_t i = 0; i < touch.extra_count; i++) assert_true(q.xyz[3 * (size_t)bottom[i] + 2] > 1 + 0.5 - 0.1);
+    assert_int_equal(q.contact.lost, 0);
+    equilibrium_free(&q);
     free(bottom);
     tear_down(&s);
 }
