@@ -41,7 +41,6 @@ void audit_free(audit *a)
     if (a->judge) tissue_set_free(&a->tissue);
     sample_set_free(&a->points);
     judge_free(&a->judge);
-    bone_shapes_free(&a->bones);
     *a = (audit){0};
 }
 

@@ -3,7 +3,6 @@
 #include "app/audit/control.h"
 #include "app/audit/feasible_line.h"
 #include "app/audit/feasible_map.h"
-#include "app/bone_shapes.h"
 #include "app/journal.h"
 #include "app/judge.h"
 #include "app/audit/tissue_set.h"
@@ -51,7 +50,6 @@ typedef struct audit {
     feasible_map map[AUDIT_REQUESTS_MAX];   /* of the others */
     bool tissue_asked;
     tissue_set tissue;
-    bone_shapes bones; /* that the tissue meets */
     int ray_count;
     audit_ray *ray;
     int request_ray[AUDIT_REQUESTS_MAX][27]; /* by direction, digits 0 none, 1 low, 2 high in base 3, first axis first */

@@ -113,7 +113,7 @@ static json_t *tissue_json(const audit *a)
         iterations += t->point[i].iterations;
         warm += t->point[i].warm;
     }
-    return json_pack("{sI si sI si sI sI}", "points_that_bone_and_teeth_allow", (json_int_t)allowed, "solves", t->count,
+    return json_pack("{ss sI si sI si sI sI}", "contact", "off", "points_that_bone_and_teeth_allow", (json_int_t)allowed, "solves", t->count,
                      "solves_left_out", (json_int_t)(allowed - t->count), "rounds", t->rounds, "started_from_a_neighbour",
                      (json_int_t)warm, "iterations", (json_int_t)iterations);
 }
@@ -284,7 +284,8 @@ bool audit_print(const audit *a, err *e)
     print_throughout(a);
     if (!audit_print_not_judged(a, e)) return false;
     if (a->tissue_asked)
-        printf("\nsoft tissue solved at %d points on the rim of what bone and teeth allow, of %lld they allow\n",
+        printf("\nsoft tissue solved at %d points on the rim of what bone and teeth allow, of %lld they allow, and without its "
+               "contact with bone: predict has it\n",
                a->tissue.count, (long long)json_integer_value(json_object_get(solves, "points_that_bone_and_teeth_allow")));
     json_decref(solves);
     printf("\n");

@@ -3,7 +3,6 @@
  * halved. Between neighbouring rays the rim runs straight. */
 #include "app/audit/audit.h"
 #include "app/judge_tissue.h"
-#include "app/plan_contact.h"
 #include "app/plan_tissue.h"
 #include "geometry/mem.h"
 #include <math.h>
@@ -216,7 +215,7 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 
 /* ---- */
 
-/* Solves what predict solves, the whole of it. What needs the face (incisor show, lower face) only cautions and is left
+/* Solves what predict --contact off --full solves: contact with bone would take ten times as long. What needs the face (incisor show, lower face) only cautions and is left
  * to predict. */
 static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
 {
@@ -229,10 +228,6 @@ static bool solve_point(const int32_t *at, const double *start_xyz, void *contex
     equilibrium_problem problem = {.mesh = &t.mesh, .attach = &t.attach, .materials = t.material,
                                    .material_count = t.material_count, .start_xyz = start_xyz};
     memcpy(problem.motion, moves.move, sizeof problem.motion);
-    plan_contact touch;
-    plan_contact_make(CONTACT_BONES, &a->prepared->tissue, &a->bones, &t.attach, moves.move, t.material[0].material.young_kpa,
-                      &touch);
-    problem.contact = &touch.setup;
     solve_params params = solve_params_default();
     params.load_steps = a->base.load_steps;
     params.interrupted = audit_stopped;
@@ -242,7 +237,6 @@ static bool solve_point(const int32_t *at, const double *start_xyz, void *contex
         judge_tissue(a->patient, a->prepared, out, NULL, &j);
         *v = audit_verdict(a, &j);
     }
-    plan_contact_free(&touch);
     plan_tissue_free(&t);
     return ok;
 }
@@ -270,8 +264,7 @@ bool audit_tissue(audit *a, journal *to, err *e)
     plan_moves moves;
     a->journal = to;
     a->tissue_asked = true;
-    bone_shapes_free(&a->bones);
-    if (!audit_judge(a, base, &j, &moves, e) || !bone_shapes_make(a->prepared, &a->bones, e)) return false;
+    if (!audit_judge(a, base, &j, &moves, e)) return false;
     a->tissue.starts_at_rest = true;
     for (int s = 0; s < SEGMENT_COUNT; s++) a->tissue.starts_at_rest &= rigid_is_identity(&moves.move[s]);
     if (!a->tissue.starts_at_rest && !tissue_set_ask(&a->tissue, base, 1, e)) return false;
