@@ -190,8 +190,10 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     bone_shapes bones;
     double start = seconds();
     if (!bone_shapes_make(p, &bones, e)) return false;
-    if (!plan_tissue_make(c, p, moves.move, in->contact == CONTACT_LIPS, &flesh, e) ||
-        !solve(&plan, &moves, p, &bones, &flesh, in, &q, &scene, e)) {
+    bool ready = plan_tissue_make(c, p, moves.move, in->contact == CONTACT_LIPS, &flesh, e);
+    if (ready && in->contact == CONTACT_BONES)
+        flesh.released = plan_contact_release(&p->tissue, &bones, moves.move, &flesh.attach);
+    if (!ready || !solve(&plan, &moves, p, &bones, &flesh, in, &q, &scene, e)) {
         plan_tissue_free(&flesh);
         bone_shapes_free(&bones);
         return false;

@@ -86,6 +86,10 @@ static void list_plan_tissue(const outcome *o, json_t *on, json_t *left_out)
                  t->lip_nodes);
         json_array_append_new(on, json_string(text));
     }
+    if (t->released) {
+        snprintf(text, sizeof text, "mucosa that another bone would run over hangs on nothing (%d nodes)", t->released);
+        json_array_append_new(on, json_string(text));
+    }
     snprintf(text, sizeof text,
              "along the cuts of this plan moved bone carries its tissue up to the edge (%d nodes tied), bone "
              "that stays is "

@@ -115,6 +115,37 @@ static void find_lips(const tissue *t, const attach_map *a, plan_contact *c)
     free(normal);
 }
 
+/* Is the node, carried by its own bone, in another one or right through it? */
+static bool is_run_over(const bone_shapes *s, const rigid motion[SEGMENT_COUNT], int own, const double x[3])
+{
+    double moved[3], at[3], back[3], hit[3], normal[3];
+    rigid_apply(&motion[own], x, moved);
+    for (int k = 0; k < SEGMENT_COUNT; k++) {
+        if (k == own || !s->tree[k]) continue;
+        rigid back_k = rigid_inverse(&motion[k]);
+        rigid_apply(&back_k, moved, at);
+        vec_sub(x, at, back);
+        double gone = vec_normalize(back);
+        if (gone > 0 && (nearest_inside(s->tree[k], at) || distance_field_leave(s->field[k], at, back, gone, hit, normal)))
+            return true;
+    }
+    return false;
+}
+
+int32_t plan_contact_release(const tissue *t, const bone_shapes *bones, const rigid motion[SEGMENT_COUNT], attach_map *attach)
+{
+    int32_t count = 0;
+    for (int32_t v = 0; v < attach->node_count; v++) {
+        if (attach->kind[v] != NODE_SLIDING ||
+            !is_run_over(bones, motion, attach->segment[v], t->mesh.xyz + 3 * (size_t)v))
+            continue;
+        attach->kind[v] = NODE_FREE;
+        attach->segment[v] = -1;
+        count++;
+    }
+    return count;
+}
+
 void plan_contact_make(contact_kind kind, const tissue *t, const bone_shapes *bones, const attach_map *attach,
                        const rigid motion[SEGMENT_COUNT], double young_kpa, plan_contact *out)
 {

@@ -13,6 +13,7 @@ typedef struct plan_tissue {
     attach_map attach;
     nose nose; /* none where the maxilla stays */
     plan_attach_report cuts;
+    int32_t released;  /* mucosa that another bone would run over, free now; see plan_contact_release */
     int32_t lip_nodes; /* of the lower lip's lining, that fall back onto the teeth */
     region_material material[2];
     int32_t material_count;

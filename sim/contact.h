@@ -74,6 +74,7 @@ typedef struct contact_report {
     int32_t nodes, links; /* that could touch; node-collider combinations */
     int32_t left_out;     /* combinations that lie inside each other at rest */
     int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
+    int32_t passed;       /* nodes that seem to have gone right through a bone */
     int32_t lost;         /* combinations deeper than the bones have moved: taken for behind, not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that

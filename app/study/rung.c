@@ -103,6 +103,7 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
               (!r->contact || bone_shapes_make(p, &bones, e));
     element_kind element = (element_kind)(r->element ? r->element : t->patient->material.element);
     for (int k = 0; ok && k < flesh.material_count; k++) ok = element_choose(&flesh.material[k].material, element, e);
+    if (ok && r->contact == CONTACT_BONES) plan_contact_release(&p->tissue, &bones, t->motion, &flesh.attach);
     if (ok && r->contact) {
         plan_contact_make(r->contact, &p->tissue, &bones, &flesh.attach, t->motion, flesh.material[0].material.young_kpa,
                           &touch);

@@ -123,6 +123,32 @@ static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const 
     link->near = link->flat || (d < HUGE_VAL && !link->lost);
 }
 
+/* Outside, but its straight way there leads through the bone, and so does the way that it should be pushed. */
+static bool has_passed(const contact *c, int32_t i, const contact_link *link, const double *x)
+{
+    static const double least_mm = 0.5; /* of a move that can lead through a bone */
+    const bone_shape *shape = is_lip(link) ? NULL : c->setup.shape[link->collider];
+    double at[3], facing[3], back[3], hit[3], normal[3], grad[3];
+    contact_link own = *link;
+    if (!shape || link->flat) return false;
+    look(c, i, link, x, at, facing);
+    vec_sub(c->rest_xyz + 3 * (size_t)c->node[i], at, back);
+    double gone = vec_normalize(back);
+    return gone > least_mm && shape->distance(shape->context, at, grad, NULL) >= 0 &&
+           shape->leave(shape->context, at, back, gone, hit, normal) && find_way_back(c, i, &own, at, facing);
+}
+
+int32_t contact_passed(const contact *c, const double *x)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < c->node_count; i++) {
+        bool passed = false;
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) passed = passed || has_passed(c, i, &c->link[l], x);
+        count += passed;
+    }
+    return count;
+}
+
 typedef struct refresh_job {
     contact *c;
     const double *x;

@@ -87,6 +87,8 @@ double contact_force_noise(const contact *c, const double *x);
 void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
+/* Nodes outside a bone at x[3*nodes] that, as it seems, came through it. */
+int32_t contact_passed(const contact *c, const double *x);
 /* Of active gaps between the energies before and after the last refresh, mm. */
 double contact_refresh_change(const contact *c);
 /* Stiffens what is deeper than the limit; false: nothing is. */

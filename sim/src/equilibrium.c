@@ -253,6 +253,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
             q.contact.free_iterations = a;
             q.contact.contact_iterations = b;
             q.contact.refresh_change_mm = change;
+            q.contact.passed = contact_passed(t->touch, q.xyz);
         }
         find_reactions(t, d.force, &q);
         q.unknown_count = t->b.unknown_count;

@@ -77,6 +77,7 @@ int main(int argc, char **argv)
         !plan_moves_load(argv[2], &w.c, &w.p.points, &w.plan, &w.moves, &e) || !bone_shapes_make(&w.p, &w.bones, &e) ||
         !plan_tissue_make(&w.c, &w.p, w.moves.move, false, &w.flesh, &e))
         give_up(&e);
+    plan_contact_release(&w.p.tissue, &w.bones, w.moves.move, &w.flesh.attach);
     if (w.plan.load_steps > 0) w.params.load_steps = w.plan.load_steps;
     puts("nodes,tets,unknowns,way,outcome,iterations,factorisations,cg,touching,depth_mm,wall_s,cpu_s,linear_wall_s,"
          "linear_cpu_s,wall_ratio,cpu_ratio");
