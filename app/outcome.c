@@ -281,6 +281,7 @@ void outcome_print(const outcome *o)
         printf("%d nodes of the lining went right through a bone, as between tooth rows that change places: the shape is not to "
                "be trusted near there\n",
                c->passed);
+    if (c->on && c->lost) printf("%d nodes in bone were given up: on which side of it they belong is not clear\n", c->lost);
     if (c->on && c->pinched)
         printf("%d nodes lie where two bones overlap and cannot be out of both\n", c->pinched);
     if (!o->points) return;

@@ -1,13 +1,22 @@
-/* contact: tissue against bone that may part from it, and lip against lip.
+/* contact: tissue against bone, and lip against lip.
  *
- * A collider is a signed distance by implicit moving least squares (Kolluri 2008): samples are the vertices
- * of a surface with their unit normals n_i and a third a_i of the area around them,
+ * A bone is a shape, a smooth signed distance d(x) given from outside, or a surface. A node of area A has the
+ * energy  A k C (tau - d)^3  where d < tau, else none; tau = min(activation, gap at rest): tissue that lies on a
+ * bone at rest feels nothing until it comes nearer than it was, so a plan that moves nothing moves nothing. No
+ * friction; no suction.
+ *
+ * Two kinds. held: sliding and paired nodes keep in touch as their attachments say; a sliding node follows the
+ * level set of its own bone's distance on which it lay at rest, not the tangent plane there: before each Newton
+ * step the plane that holds it is laid anew to the level, each trial step ends on it (retraction), and the
+ * Hessian holds the level's bend (minus reaction times Hessian of d). Everything else is kept out of bones. It comes
+ * late: loads before the last are solved without, unless that fails. Not held: sliding nodes may lift off, lips part
+ * and meet.
+ *
+ * A surface without a shape, as a lip always is, is a signed distance by implicit moving least squares
+ * (Kolluri 2008): samples are the vertices of a surface with their unit normals n_i and a third a_i of the area around them,
  *   d(x) = sum_i w_i n_i.(x - x_i) / S,  w_i = 5 a_i / (pi h_i^2) (1 - |x - x_i|^2 / h_i^2)^4 within h_i,
  * S = sum_i w_i is 1 on an even plane and falls to 0 off the rim of a surface.
- * A node of area A has the energy  A k C(S) (tau - d)^3  where d < tau, else none; C rises smoothly from 0 to
- * 1 at the rim. tau = min(activation, gap at rest): tissue that lies on a bone at rest, or by the coarseness
- * of surfaces within it, feels nothing until it comes nearer than it was, so a plan that moves nothing moves
- * nothing; elsewhere the surfaces themselves must meet. No friction; no suction: tissue may lift off.
+ * C(S) rises smoothly from 0 to 1 at the rim (a shape has C = 1).
  *
  * What is sharper than h is smoothed away: a spike narrower than that, and steep, is not felt. The depths that
  * contact_report tells are below the smoothed surface.
@@ -75,7 +84,8 @@ typedef struct contact_report {
     int32_t left_out;     /* combinations that lie inside each other at rest */
     int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
     int32_t passed;       /* nodes that seem to have gone right through a bone */
-    int32_t lost;         /* combinations deeper than the bones have moved: taken for behind, not pushed */
+    int32_t lost;         /* combinations given up: deeper than the bones have moved, so taken for behind, or at a thin bone whose side is
+                             not clear; not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
                              is less than 0; at contacts with C >= 1/2 */

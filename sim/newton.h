@@ -116,7 +116,7 @@ typedef struct equilibrium {
     double factor_flops, memory_peak_mb;
 } equilibrium;
 
-/* With contact sliding and paired nodes are free, and each load is solved in two phases: A without contact to
+/* With contact that is not held sliding and paired nodes are free, and each load is solved in two phases: A without contact to
  * a loose tolerance (the first load only, and not where rest is the answer), B with it. SOLVED needs the
  * residual below the tolerance right after colliders are renewed, and no penetration beyond depth_limit_mm.
  *

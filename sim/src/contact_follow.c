@@ -1,7 +1,8 @@
+/* Sliding nodes on the level of their bone's distance. */
+#include "sim/src/contact_state.h"
+#include "geometry/vec.h"
 #include <math.h>
 #include <stddef.h>
-#include "geometry/vec.h"
-#include "sim/src/contact_state.h"
 
 static const double flat = 0.3; /* gradients shorter than this have no direction: between two surfaces */
 

@@ -3,7 +3,7 @@
 #include "geometry/vec.h"
 #include "sim/src/contact_state.h"
 
-enum { NODE_GRAIN = 16 };
+enum { NODE_GRAIN = 16, most_turns = 6 /* between both sides of a thin bone, before a node is given up */ };
 
 static const double shallow = 0.4;    /* of h: what the plain support sees well */
 static const double wide = 1 / 0.4;   /* support of a deep node over its distance; meets 1 at shallow */
@@ -118,8 +118,11 @@ static void refresh_shape_link(contact *c, int32_t i, contact_link *link, const 
     link->scale = link->cover = 1;
     double d = shape->distance(shape->context, at, grad, NULL);
     bool wrong = d < 0 && vec_dot(grad, facing) <= backwards * vec_norm(grad);
+    bool before = link->flat;
     link->flat = wrong && find_way_back(c, i, link, at, facing);
-    link->lost = wrong && !link->flat && d < -deep_mm;
+    link->turns += link->flat != before;
+    link->lost = (wrong && !link->flat && d < -deep_mm) || link->turns > most_turns;
+    link->flat = link->flat && !link->lost;
     link->near = link->flat || (d < HUGE_VAL && !link->lost);
 }
 

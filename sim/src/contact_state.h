@@ -14,6 +14,7 @@ typedef struct contact_link {
     bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
     bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
                  */
+    int turns;            /* of flat, since contact_restart */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
@@ -91,6 +92,8 @@ bool contact_stiffness_is_old(const contact *c);
 int32_t contact_passed(const contact *c, const double *x);
 /* Of active gaps between the energies before and after the last refresh, mm. */
 double contact_refresh_change(const contact *c);
+/* Do two bones press the node against each other? Where bones overlap no force brings it out of both. */
+bool contact_is_pinched(const contact *c, int32_t i);
 /* Stiffens what is deeper than the limit; false: nothing is. */
 bool contact_stiffen(contact *c);
 /* Norm of all contact forces of the last contact_energy, mN. */
