@@ -187,17 +187,29 @@ static void hanging_block(setting *s, int32_t **bottom, int32_t *count)
     wire(s);
 }
 
+typedef struct ball_below {
+    bone_shape shape;
+    contact_setup touch;
+    int32_t *bottom;
+} ball_below;
+
+/* The block over a ball of the maxilla; *out is not to be moved, and its bottom is the caller's to free. */
+static void hang_over_ball(setting *s, const ball *b, ball_below *out)
+{
+    out->shape = (bone_shape){.context = b, .distance = ball_distance, .leave = never_leaves};
+    out->touch = held_by(NULL, &out->shape);
+    hanging_block(s, &out->bottom, &out->touch.extra_count);
+    out->touch.extra = out->bottom;
+}
+
 static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energy(void **state)
 {
     (void)state;
     ball b = {{9, 8, -11}, 10};
-    bone_shape shape = {.context = &b, .distance = ball_distance, .leave = never_leaves};
-    contact_setup touch = held_by(NULL, &shape);
     setting s;
-    int32_t *bottom;
-    hanging_block(&s, &bottom, &touch.extra_count);
-    touch.extra = bottom;
-    s.problem.contact = &touch;
+    ball_below under;
+    hang_over_ball(&s, &b, &under);
+    s.problem.contact = &under.touch;
     solve_params params = solve_params_default();
     double energy[3], force = 0, h = 0.02;
     for (int k = -1; k <= 1; k++) {
@@ -211,9 +223,9 @@ static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energ
         }
         force = q.segment_force_mn[SEGMENT_MAXILLA][2]; /* of the bone on the tissue */
         assert_true(q.imbalance < 1e-6 && q.contact.active_nodes > 3 && q.contact.depth_mm < 0.1);
-        for (int32_t i = 0; i < touch.extra_count; i++) {
+        for (int32_t i = 0; i < under.touch.extra_count; i++) {
             double x[3], grad[3];
-            vec_sub(q.xyz + 3 * (size_t)bottom[i], (double[]){0, 0, 4}, x);
+            vec_sub(q.xyz + 3 * (size_t)under.bottom[i], (double[]){0, 0, 4}, x);
             assert_true(ball_distance(&b, x, grad, NULL) > -0.1);
         }
         printf("%d nodes touch, %.3f mm deep, %d iterations\n", q.contact.active_nodes, q.contact.depth_mm, q.iterations);
@@ -221,7 +233,7 @@ static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energ
     }
     printf("force %.6g mN, by energy %.6g\n", force, (energy[2] - energy[0]) / (2 * h));
     assert_near(force, (energy[2] - energy[0]) / (2 * h), 2e-3 * fabs(force));
-    free(bottom);
+    free(under.bottom);
     tear_down(&s);
 }
 
@@ -253,23 +265,20 @@ static void what_nothing_comes_near_costs_nothing_and_changes_nothing(void **sta
 {
     (void)state;
     ball b = {{9, 8, -40}, 10};
-    bone_shape shape = {.context = &b, .distance = ball_distance, .leave = never_leaves};
-    contact_setup touch = held_by(NULL, &shape);
     setting s;
-    int32_t *bottom;
-    hanging_block(&s, &bottom, &touch.extra_count);
-    touch.extra = bottom;
+    ball_below under;
+    hang_over_ball(&s, &b, &under);
     s.problem.motion[SEGMENT_CRANIUM] = rigid_rotation((double[]){0, 0, 0}, (double[]){0, 1, 0}, 0.1);
     solve_params params = solve_params_default();
     equilibrium without = solve(&s, &params);
-    s.problem.contact = &touch;
+    s.problem.contact = &under.touch;
     equilibrium with = solve(&s, &params);
     assert_int_equal(with.contact.active_nodes, 0);
     assert_int_equal(with.iterations, without.iterations);
     for (size_t i = 0; i < 3 * (size_t)s.mesh.vertex_count; i++) assert_near(with.xyz[i], without.xyz[i], 1e-9);
     equilibrium_free(&with);
     equilibrium_free(&without);
-    free(bottom);
+    free(under.bottom);
     tear_down(&s);
 }
 
@@ -277,13 +286,10 @@ static void every_thread_count_gives_the_same_bits(void **state)
 {
     (void)state;
     ball b = {{9, 8, -11}, 10};
-    bone_shape shape = {.context = &b, .distance = ball_distance, .leave = never_leaves};
-    contact_setup touch = held_by(NULL, &shape);
     setting s;
-    int32_t *bottom;
-    hanging_block(&s, &bottom, &touch.extra_count);
-    touch.extra = bottom;
-    s.problem.contact = &touch;
+    ball_below under;
+    hang_over_ball(&s, &b, &under);
+    s.problem.contact = &under.touch;
     s.problem.motion[SEGMENT_MAXILLA] = rigid_translation((double[]){0, 0, 3});
     solve_params params = solve_params_default();
     equilibrium first = {0};
@@ -297,7 +303,7 @@ static void every_thread_count_gives_the_same_bits(void **state)
     }
     parallel_set_threads(0);
     equilibrium_free(&first);
-    free(bottom);
+    free(under.bottom);
     tear_down(&s);
 }
 
