@@ -1,7 +1,7 @@
 /* Tissue that keeps in touch with bones of known shape: it slides along their surface and enters none. */
 #include "tests/check.h"
-#include "geometry/parallel.h"
 #include "app/stress/shapes.h"
+#include "geometry/parallel.h"
 #include "sim/src/contact_state.h"
 #include "tests/physics/setting.h"
 #include <string.h>
