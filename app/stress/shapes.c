@@ -25,6 +25,13 @@ static curve off_tip(double x, double e)
     return (curve){half - c.value, r < 0 ? -c.slope : c.slope, -c.bend};
 }
 
+static double over_plane(const known_bone *b, const double r[3], double grad[3], double hess[9])
+{
+    (void)b, (void)hess;
+    grad[2] = 1;
+    return r[2];
+}
+
 static double over_plate(const known_bone *b, const double r[3], double grad[3], double hess[9])
 {
     curve c = blended_abs(r[2], b->round);
@@ -75,30 +82,14 @@ static double over_teeth(const known_bone *b, const double r[3], double grad[3],
 
 static double distance(const void *context, const double x[3], double grad[3], double *hess)
 {
+    static double (*const over[])(const known_bone *b, const double r[3], double grad[3], double hess[9]) = {
+        [KNOWN_PLANE] = over_plane, [KNOWN_PLATE] = over_plate, [KNOWN_BALL] = over_ball,
+        [KNOWN_EDGE] = over_edge,   [KNOWN_CUSPS] = over_cusps, [KNOWN_TEETH] = over_teeth};
     const known_bone *b = context;
-    double r[3], bend[9] = {0}, d = HUGE_VAL;
+    double r[3], bend[9] = {0};
     vec_sub(x, b->at, r);
-    vec_copy((double[]){0, 0, 1}, grad);
-    switch (b->kind) {
-    case KNOWN_PLANE:
-        d = r[2];
-        break;
-    case KNOWN_PLATE:
-        d = over_plate(b, r, grad, bend);
-        break;
-    case KNOWN_BALL:
-        d = over_ball(b, r, grad, bend);
-        break;
-    case KNOWN_EDGE:
-        d = over_edge(b, r, grad, bend);
-        break;
-    case KNOWN_CUSPS:
-        d = over_cusps(b, r, grad, bend);
-        break;
-    case KNOWN_TEETH:
-        d = over_teeth(b, r, grad, bend);
-        break;
-    }
+    memset(grad, 0, 3 * sizeof *grad);
+    double d = over[b->kind](b, r, grad, bend);
     if (hess) memcpy(hess, bend, sizeof bend);
     return d;
 }
