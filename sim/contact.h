@@ -1,9 +1,9 @@
 /* contact: tissue against bone, and lip against lip.
  *
- * A bone is a shape, a smooth signed distance d(x) given from outside, or a surface. A node of area A has the
+ * A bone is a shape, a smooth signed distance d(x) given from outside. A node of area A has the
  * energy  A k C (tau - d)^3  where d < tau, else none; tau = min(activation, gap at rest): tissue that lies on a
  * bone at rest feels nothing until it comes nearer than it was, so a plan that moves nothing moves nothing. No
- * friction; no suction.
+ * friction; no suction. C is 1 but at the rim of a lip.
  *
  * Two kinds. held: sliding and paired nodes keep in touch as their attachments say; a sliding node follows the
  * level set of its own bone's distance on which it lay at rest, not the tangent plane there: before each Newton
@@ -12,19 +12,15 @@
  * late: loads before the last are solved without, unless that fails. Not held: sliding nodes may lift off, lips part
  * and meet.
  *
- * A surface without a shape, as a lip always is, is a signed distance by implicit moving least squares
- * (Kolluri 2008): samples are the vertices of a surface with their unit normals n_i and a third a_i of the area around them,
+ * A lip is a signed distance by implicit moving least squares (Kolluri 2008): samples are its nodes with their unit
+ * normals n_i and a third a_i of the area around them,
  *   d(x) = sum_i w_i n_i.(x - x_i) / S,  w_i = 5 a_i / (pi h_i^2) (1 - |x - x_i|^2 / h_i^2)^4 within h_i,
- * S = sum_i w_i is 1 on an even plane and falls to 0 off the rim of a surface.
- * C(S) rises smoothly from 0 to 1 at the rim (a shape has C = 1).
- *
- * What is sharper than h is smoothed away: a spike narrower than that, and steep, is not felt. The depths that
- * contact_report tells are below the smoothed surface.
- *
- * Only samples that face the node are asked (a plate thinner than h would else have no inside). A node that
- * got deeper than 0.4 h under a surface sees with a wider support, renewed at each Newton step, until it is
- * out. Lips: the samples are nodes of the other lip. Their normals and weights are frozen at each refresh, so
- * the gap is linear in the nodes of both lips: equal and opposite forces, a positive semidefinite stiffness.
+ * S = sum_i w_i is 1 on an even plane and falls to 0 off the rim of a surface; C(S) rises smoothly from 0 to 1 there.
+ * Only samples that face the node are asked (a lip thinner than h would else have no inside). A node that
+ * got deeper than 0.4 h under a lip sees with a wider support, renewed at each Newton step, until it is
+ * out. Normals and weights are frozen at each refresh, so the gap is linear in the nodes of both lips: equal and
+ * opposite forces, a positive semidefinite stiffness. Folds sharper than h are smoothed away, and depths are told below
+ * the smoothed lip.
  */
 #pragma once
 #include "geometry/rigid.h"
@@ -35,13 +31,13 @@ extern "C" {
 #endif
 
 typedef struct contact_params {
-    double support;        /* h over the longest edge at a vertex; 1.5 to 2 */
+    double support;        /* of lips: h over the longest edge at a node; 1.5 to 2 */
     double activation_mm;  /* where surfaces apart at rest begin to push */
     double depth_mm;       /* expected under pressure_kpa: k = pressure / (3 depth^2) */
     double pressure_kpa;   /* 0: Young's modulus of the stiffest tissue */
     double depth_limit_mm; /* deeper contacts are stiffened and solved again; refused as a result */
     int max_stiffenings;   /* of all contacts that are too deep, each by 4 */
-    double facing_cos;     /* samples whose normal is farther from the node's own than this are not asked */
+    double facing_cos;     /* samples of a lip whose normal is farther from the node's own than this are not asked */
     double slide_mm;     /* how far lips may slide before their coupling leaves the matrix (not the forces) */
     double free_rel_tol; /* phase A, without contact: tolerance and */
     int free_iterations; /* most iterations; 0: no phase A */
@@ -66,11 +62,9 @@ typedef struct bone_shape {
 typedef struct contact_setup {
     contact_params params;
     bool held; /* sliding and paired nodes keep in touch as without contact, and only bones are met; sliding nodes
-                  stay on the level of their own bone's distance that they lay on at rest, not on its tangent
-                  plane, where that bone has a shape */
-    const bone_shape *shape[SEGMENT_COUNT]; /* takes the place of bone[]; or NULL */
-    const surface *bone[SEGMENT_COUNT]; /* at rest, outward, moves with its segment; open patches allowed; or
-                                           NULL */
+                  stay on the level of their own bone's distance that they lay on at rest, where that bone has a
+                  shape, else on the tangent plane there */
+    const bone_shape *shape[SEGMENT_COUNT]; /* at rest, moves with its segment; NULL: cannot be touched */
     int32_t upper_count, lower_count;
     const int32_t *upper_lip, *lower_lip; /* [3*count] triangles of mesh nodes, out of the tissue. A pair
                                              that is not in both stays together */
@@ -81,11 +75,11 @@ typedef struct contact_setup {
 typedef struct contact_report {
     bool on, held;
     int32_t nodes, links; /* that could touch; node-collider combinations */
-    int32_t left_out;     /* combinations that lie inside each other at rest */
+    int32_t left_out;     /* nodes of one lip that lie deep in the other at rest */
     int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
     int32_t passed;       /* nodes that seem to have gone right through a bone */
-    int32_t lost;         /* combinations given up: deeper than the bones have moved, so taken for behind, or at a thin bone whose side is
-                             not clear; not pushed */
+    int32_t lost;         /* combinations given up: at a thin bone whose side is not clear, or deeper in a lip than the
+                             bones have moved, so taken for behind; not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
                              is less than 0; at contacts with C >= 1/2 */

@@ -120,7 +120,6 @@ void stress_scene_free(stress_scene *s)
     tetmesh_free(&s->mesh);
     attach_map_free(&s->attach);
     free(s->start_xyz);
-    for (int k = 0; k < SEGMENT_COUNT; k++) surface_free(&s->bone[k]);
     free(s->upper);
     free(s->lower);
     free(s->extra);

@@ -4,6 +4,7 @@
  * a solve, run.c runs it in a child process with a time limit, verify.c checks a claim of "solved" from the
  * returned positions alone. */
 #pragma once
+#include "app/stress/shapes.h"
 #include "geometry/json_file.h"
 #include "sim/newton.h"
 #include <stdio.h>
@@ -19,9 +20,9 @@ typedef struct stress_scene {
     rigid motion[SEGMENT_COUNT];
     double *start_xyz; /* or NULL */
     bool touches;
-    surface bone[SEGMENT_COUNT];
-    int32_t *upper, *lower, *extra;
+    known_bone bone; /* of the distal segment, over the middle of the body's bottom; and its shape */
     bone_shape shape;
+    int32_t *upper, *lower, *extra;
     contact_setup contact; /* points into this: a scene is not to be copied */
     solve_params params;
 } stress_scene;
@@ -44,7 +45,7 @@ enum {
     CHECK_UPRIGHT = 4, /* no tet turned inside out */
     CHECK_SCALED = 8, /* displacements are those of the same case at scale and stiffness 1, times the scale */
     CHECK_ABOVE =
-        16 /* no tissue node below its collider's height field by more than depth_limit_mm + slack */
+        16 /* no tissue node that may touch is deeper in the bone, where that rests, than depth_limit_mm + slack */
 };
 
 typedef enum stress_start {
@@ -143,18 +144,18 @@ void specimen_graded(const stress_case *c,
                      stress_scene *s); /* block; cells grow p-fold from one side to the other */
 void specimen_single(const stress_case *c, stress_scene *s); /* one tet; p nodes of it tied */
 void specimen_broken(const stress_case *c, stress_scene *s); /* block with a flaw */
-void specimen_on_plane(const stress_case *c,
-                       stress_scene *s); /* block tied at its top, p above a plane of the distal bone */
-void specimen_on_teeth(const stress_case *c, stress_scene *s); /* above a field of pyramids, p mm high */
-void specimen_on_ball(const stress_case *c, stress_scene *s);  /* above a ball of radius p */
-void specimen_on_rim(const stress_case *c,
-                     stress_scene *s);                     /* half of it beside a plane that ends under it */
-void specimen_lips(const stress_case *c, stress_scene *s); /* two blocks, p apart */
-/* Block tied at its top; its bottom keeps out of, or slides on, a ball of radius p or cusps p high of known shape. */
+/* Block tied at its top. Its bottom slides on the distal bone and may lift off: a plane p lower, pyramids p high, a ball
+ * of radius p, or a rim: half of it has no bone. */
+void specimen_on_plane(const stress_case *c, stress_scene *s);
+void specimen_on_teeth(const stress_case *c, stress_scene *s);
+void specimen_on_ball(const stress_case *c, stress_scene *s);
+void specimen_on_rim(const stress_case *c, stress_scene *s);
+/* The same; its bottom keeps out of, or slides on, a ball of radius p or cusps p high. */
 void specimen_kept_off_ball(const stress_case *c, stress_scene *s);
 void specimen_kept_off_cusps(const stress_case *c, stress_scene *s);
 void specimen_kept_on_ball(const stress_case *c, stress_scene *s);
 void specimen_kept_on_cusps(const stress_case *c, stress_scene *s);
+void specimen_lips(const stress_case *c, stress_scene *s); /* two blocks, p apart */
 
 typedef enum mesh_flaw {
     FLAW_CRACK,  /* nodes of the middle layer doubled: two blocks that touch, both held */
@@ -189,8 +190,8 @@ static inline int32_t stress_node(const int n[3], int i, int j, int k)
 void stress_tie(attach_map *a, int32_t v, segment_id segment);
 void stress_tie_ends(const stress_case *c,
                      stress_scene *s); /* bottom layer to distal, top layer to maxilla */
-/* Height of the collider under x, y for CHECK_ABOVE, in the bone's rest frame. */
-double stress_height(const stress_case *c, double x, double y);
+/* How deep x lies in the bone for CHECK_ABOVE, mm, from other formulas than the shape; below cusps along z. */
+double stress_depth(const known_bone *b, const double x[3]);
 
 /* The table as Markdown. */
 void stress_print(const stress_case *const *c, const stress_result *r, int count, FILE *out);

@@ -67,12 +67,7 @@ double contact_bone_gap(const contact *c, const contact_link *link, const double
         if (hess) memset(hess, 0, 9 * sizeof *hess);
         return link->base + vec_dot(link->m, at);
     }
-    if (shape) return shape->distance(shape->context, at, grad, hess);
-    imls_value v = imls_at(&c->cloud[link->collider], link->sample, link->count, link->scale, at, hess != NULL, NULL);
-    if (!(v.S > 0)) return HUGE_VAL;
-    vec_copy(v.grad, grad);
-    if (hess) memcpy(hess, v.hess, sizeof v.hess);
-    return v.d;
+    return shape->distance(shape->context, at, grad, hess);
 }
 
 /* Energy of one link; fills what belongs to the last evaluation. */

@@ -1,7 +1,6 @@
 #include "sim/src/contact_imls.h"
-#include "geometry/mem.h"
 #include "geometry/vec.h"
-#include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,26 +31,6 @@ void imls_shape(imls_cloud *c, const int32_t *tri, int32_t tri_count, double sup
     for (int32_t i = 0; i < c->count; i++) vec_normalize(c->n + 3 * (size_t)i);
 }
 
-imls_cloud imls_of_surface(const surface *s, double support)
-{
-    int32_t *number = NEW_ARRAY(int32_t, s->vertex_count),
-            *tri = NEW_ARRAY(int32_t, 3 * (size_t)s->triangle_count);
-    imls_cloud c = {0};
-    for (int32_t i = 0; i < 3 * s->triangle_count; i++)
-        if (!number[s->tri[i]]) number[s->tri[i]] = ++c.count;
-    for (int32_t i = 0; i < 3 * s->triangle_count; i++) tri[i] = number[s->tri[i]] - 1;
-    c.x = NEW_ARRAY(double, 3 * (size_t)c.count);
-    c.n = NEW_ARRAY(double, 3 * (size_t)c.count);
-    c.area = NEW_ARRAY(double, c.count);
-    c.h = NEW_ARRAY(double, c.count);
-    for (int32_t v = 0; v < s->vertex_count; v++)
-        if (number[v]) vec_copy(s->xyz + 3 * (size_t)v, c.x + 3 * (size_t)(number[v] - 1));
-    imls_shape(&c, tri, s->triangle_count, support);
-    free(number);
-    free(tri);
-    return c;
-}
-
 void imls_free(imls_cloud *c)
 {
     free(c->x);
@@ -62,50 +41,38 @@ void imls_free(imls_cloud *c)
 }
 
 imls_value imls_at(const imls_cloud *c, const int32_t *list, int32_t count, double scale, const double x[3],
-                   bool with_hess, double *weight)
+                   double *weight)
 {
     imls_value v = {.d = HUGE_VAL};
     double sum = 0, normal[3] = {0};
     for (int32_t k = 0; k < count; k++) {
-        int32_t i = list ? list[k] : k;
+        int32_t i = list[k];
         double r[3], H = scale * c->h[i];
         vec_sub(x, c->x + 3 * (size_t)i, r);
-        double q = 1 - vec_dot(r, r) / (H * H), w = 0;
-        if (q > 0) {
-            double kappa = 5 * c->area[i] / (pi * H * H);
-            w = kappa * q * q * q * q;
-            v.S += w;
-            sum += w * vec_dot(c->n + 3 * (size_t)i, r);
-            vec_axpy(normal, w, c->n + 3 * (size_t)i, normal);
-            vec_axpy(v.S_grad, -8 * kappa / (H * H) * q * q * q, r, v.S_grad);
-        }
-        if (weight) weight[k] = w;
+        double q = 1 - vec_dot(r, r) / (H * H);
+        weight[k] = 0;
+        if (!(q > 0)) continue;
+        weight[k] = 5 * c->area[i] / (pi * H * H) * q * q * q * q;
+        v.S += weight[k];
+        sum += weight[k] * vec_dot(c->n + 3 * (size_t)i, r);
+        vec_axpy(normal, weight[k], c->n + 3 * (size_t)i, normal);
     }
     if (!(v.S > 0)) return v;
     v.d = sum / v.S;
-    double turn[3] = {0}, hess[9] = {0};
+    double turn[3] = {0};
     for (int32_t k = 0; k < count; k++) {
-        if (weight) weight[k] /= v.S;
-        int32_t i = list ? list[k] : k;
-        const double *n = c->n + 3 * (size_t)i;
-        double r[3], g[3], H = scale * c->h[i];
+        weight[k] /= v.S;
+        int32_t i = list[k];
+        double r[3], H = scale * c->h[i];
         vec_sub(x, c->x + 3 * (size_t)i, r);
         double q = 1 - vec_dot(r, r) / (H * H);
         if (!(q > 0)) continue;
-        double kappa = 5 * c->area[i] / (pi * H * H), off = vec_dot(n, r) - v.d;
-        double slope = -8 * kappa / (H * H) * q * q * q, bend = 48 * kappa / (H * H * H * H) * q * q;
-        vec_scale(r, slope, g);
+        double kappa = 5 * c->area[i] / (pi * H * H), off = vec_dot(c->n + 3 * (size_t)i, r) - v.d;
+        double g[3];
+        vec_scale(r, -8 * kappa / (H * H) * q * q * q, g);
         vec_axpy(turn, off, g, turn);
-        if (!with_hess) continue;
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++)
-                hess[3 * a + b] +=
-                    n[a] * g[b] + g[a] * n[b] + off * (bend * r[a] * r[b] + (a == b ? slope : 0));
     }
     for (int a = 0; a < 3; a++) v.grad[a] = (normal[a] + turn[a]) / v.S;
-    for (int a = 0; with_hess && a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            v.hess[3 * a + b] = (hess[3 * a + b] - v.S_grad[a] * v.grad[b] - v.grad[a] * v.S_grad[b]) / v.S;
     return v;
 }
 

@@ -85,10 +85,8 @@ static bool check_lists(const tetmesh *m, const attach_map *a, const contact_set
             ok = err_set(e, ERR_INPUT, "node %d cannot meet bone: it is out of range or tied", v);
     }
     for (int32_t v = 0; ok && v < m->vertex_count; v++) {
-        if (a->kind[v] != NODE_SLIDING || s->held || s->shape[a->segment[v]]) continue;
-        const surface *bone = s->bone[a->segment[v]];
-        if (!(bone && bone->triangle_count))
-            ok = err_set(e, ERR_INPUT, "node %d slides on the %s, which has no contact surface", v,
+        if (a->kind[v] == NODE_SLIDING && !s->held && !s->shape[a->segment[v]])
+            ok = err_set(e, ERR_INPUT, "node %d slides on the %s, which has no shape to touch", v,
                          segment_name((segment_id)a->segment[v]));
     }
     free(lip);
@@ -150,77 +148,38 @@ static bool find_nodes(contact *c, const tetmesh *m, const attach_map *a, err *e
     return ok;
 }
 
-static void make_lip(contact *c, const tetmesh *m, int side, const int32_t *face, int32_t count)
-{
-    imls_cloud *cloud = &c->cloud[COLLIDER_UPPER + side];
-    int32_t *number = NEW_ARRAY(int32_t, m->vertex_count);
-    for (int32_t i = 0; i < 3 * count; i++)
-        if (!number[face[i]]) number[face[i]] = ++cloud->count;
-    size_t n = (size_t)cloud->count;
-    cloud->x = NEW_ARRAY(double, 3 * n);
-    cloud->n = NEW_ARRAY(double, 3 * n);
-    cloud->area = NEW_ARRAY(double, n);
-    cloud->h = NEW_ARRAY(double, n);
-    c->lip_node[side] = NEW_ARRAY(int32_t, n);
-    c->lip_tri_count[side] = count;
-    c->lip_tri[side] = NEW_ARRAY(int32_t, 3 * (size_t)count);
-    for (int32_t i = 0; i < 3 * count; i++) {
-        int32_t at = c->lip_tri[side][i] = number[face[i]] - 1;
-        c->lip_node[side][at] = face[i];
-        vec_copy(m->xyz + 3 * (size_t)face[i], cloud->x + 3 * (size_t)at);
-    }
-    imls_shape(cloud, c->lip_tri[side], count, c->setup.params.support);
-    for (int32_t i = 0; i < c->node_count; i++)
-        if (number[c->node[i]]) c->own_sample[i] = number[c->node[i]] - 1;
-    free(number);
-}
-
-static void make_couplings(contact *c, const tetmesh *m)
-{
-    const imls_cloud *u = &c->cloud[COLLIDER_UPPER], *l = &c->cloud[COLLIDER_LOWER];
-    int32_t count = u->count + l->count, *node = NEW_ARRAY(int32_t, count), room = 0;
-    double h = 0;
-    for (int32_t i = 0; i < count; i++) {
-        node[i] = i < u->count ? c->lip_node[0][i] : c->lip_node[1][i - u->count];
-        h = fmax(h, i < u->count ? u->h[i] : l->h[i - u->count]);
-    }
-    for (int32_t i = 0; i < count; i++)
-        for (int32_t j = 0; j < i; j++) {
-            bool across = j < u->count && i >= u->count;
-            double reach = across ? h + c->setup.params.slide_mm : 2 * h;
-            if (vec_distance(m->xyz + 3 * (size_t)node[i], m->xyz + 3 * (size_t)node[j]) > reach) continue;
-            if (c->coupling_count == room) {
-                room = 2 * room + 256;
-                c->coupling = GROW_ARRAY(int32_t, c->coupling, 2 * (size_t)room);
-            }
-            int32_t *pair = c->coupling + 2 * (size_t)c->coupling_count++;
-            pair[0] = node[i] < node[j] ? node[i] : node[j];
-            pair[1] = node[i] < node[j] ? node[j] : node[i];
-        }
-    free(node);
-}
-
 static void make_links(contact *c, const attach_map *a)
 {
     c->link_start = NEW_ARRAY(int32_t, (size_t)c->node_count + 1);
     c->link = NEW_ARRAY(contact_link, COLLIDER_COUNT * (size_t)c->node_count);
     for (int32_t i = 0; i < c->node_count; i++) {
         c->link_start[i] = c->link_count;
-        bool upper = false, lower = false;
+        int other = -1; /* lip */
         if (c->own_sample[i] >= 0) {
             int32_t at = c->own_sample[i];
-            upper = at < c->cloud[COLLIDER_UPPER].count && c->lip_node[0][at] == c->node[i];
-            lower = !upper;
+            bool upper = at < c->cloud[0].count && c->lip_node[0][at] == c->node[i];
+            other = upper ? COLLIDER_LOWER : COLLIDER_UPPER;
         }
         for (int k = 0; k < COLLIDER_COUNT; k++) {
-            bool shape = k < SEGMENT_COUNT && c->setup.shape[k];
-            if ((!shape && !c->cloud[k].count) || (k == COLLIDER_UPPER && !lower) || (k == COLLIDER_LOWER && !upper))
-                continue;
+            if (k < SEGMENT_COUNT ? !c->setup.shape[k] : k != other) continue;
             if (c->setup.held && a->kind[c->node[i]] == NODE_SLIDING && a->segment[c->node[i]] == k) continue;
-            c->link[c->link_count++] = (contact_link){.collider = k, .stiffening = 1, .scale = 1};
+            c->link[c->link_count++] = (contact_link){.collider = k, .stiffening = 1, .cover = 1, .faced = true};
         }
     }
     c->link_start[c->node_count] = c->link_count;
+}
+
+/* Its gap at rest, with what else is known from then on. */
+static double look_at_lip(contact *c, int32_t i, contact_link *link, const double *x)
+{
+    static const double beside = 0.6; /* of h */
+    lip_view v = contact_view_lip(c, i, link, x);
+    if (v.nearest < 0) return HUGE_VAL;
+    link->left_out = v.deep;
+    link->faced = v.aside_mm / c->cloud[link->collider - COLLIDER_UPPER].h[v.nearest] <= beside;
+    c->report.left_out += v.deep;
+    /* beside the rim the plane goes on: a node behind it there is not to be pushed to its front */
+    return isfinite(link->gap) && !v.deep ? link->gap : v.plane_mm < 0 ? v.plane_mm : HUGE_VAL;
 }
 
 /* Gaps at rest, from which thresholds follow. */
@@ -230,22 +189,16 @@ static void measure_rest(contact *c, const tetmesh *m)
     for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
     contact_move(c, still, &guide, m->xyz);
     c->motion_reach_mm = 1e3;
-    for (int32_t l = 0; l < c->link_count; l++) c->link[l].faced = true;
     contact_refresh(c, m->xyz);
-    for (int32_t l = 0; l < c->link_count; l++) {
-        contact_link *link = &c->link[l];
-        link->left_out = link->scale > 1;
-        link->faced = link->aside <= 0.6;
-        c->report.left_out += link->left_out;
-    }
     contact_energy(c, m->xyz, NULL);
-    for (int32_t l = 0; l < c->link_count; l++) {
-        contact_link *link = &c->link[l];
-        /* beside the rim the plane goes on: a node behind it there is not to be pushed to its front */
-        double rest = isfinite(link->gap) ? link->gap : link->plane_mm < 0 ? link->plane_mm : HUGE_VAL;
-        link->threshold_mm = fmin(c->setup.params.activation_mm, rest);
-        link->depth_from_mm = fmin(0, rest);
-    }
+    for (int32_t i = 0; i < c->node_count; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
+            contact_link *link = &c->link[l];
+            double rest = link->gap;
+            if (is_lip(link)) rest = look_at_lip(c, i, link, m->xyz);
+            link->threshold_mm = fmin(c->setup.params.activation_mm, rest);
+            link->depth_from_mm = fmin(0, rest);
+        }
 }
 
 /* Levels on which sliding nodes lie at rest, before a shift that the attachment asks for. */
@@ -265,9 +218,6 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
                   contact **out, err *e)
 {
     if (!check_params(&setup->params, e) || !check_lists(m, attach, setup, e)) return false;
-    for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (setup->bone[s] && !surface_check(setup->bone[s], e))
-            return err_prefix(e, "contact surface of the %s", segment_name((segment_id)s));
     contact *c = NEW_ARRAY(contact, 1);
     const contact_params *p = &setup->params;
     c->setup = *setup;
@@ -278,25 +228,7 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
     c->level_mm = NEW_ARRAY(double, c->node_count);
     c->level_segment = NEW_ARRAY(int8_t, c->node_count);
     for (int32_t i = 0; i < c->node_count; i++) c->own_sample[i] = -1;
-    for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (setup->bone[s] && !setup->shape[s]) c->cloud[s] = imls_of_surface(setup->bone[s], p->support);
-    if (ok && (setup->upper_count > 0) != (setup->lower_count > 0))
-        ok = err_set(e, ERR_INPUT, "the %s lip has contact faces, the other has none",
-                     setup->upper_count ? "upper" : "lower");
-    if (ok && setup->upper_count) {
-        make_lip(c, m, 0, setup->upper_lip, setup->upper_count);
-        make_lip(c, m, 1, setup->lower_lip, setup->lower_count);
-        make_couplings(c, m);
-    }
-    for (int k = 0; ok && k < COLLIDER_COUNT; k++)
-        for (int32_t i = 0; ok && i < c->cloud[k].count; i++)
-            if (!(c->cloud[k].h[i] > 2.5 * (p->activation_mm + p->depth_limit_mm)))
-                ok = err_set(
-                    e, ERR_INPUT,
-                    "a contact surface is too fine about %.1f %.1f %.1f mm: its support of %.2f mm would not "
-                    "see a contact %.2f mm deep",
-                    c->cloud[k].x[3 * (size_t)i], c->cloud[k].x[3 * (size_t)i + 1],
-                    c->cloud[k].x[3 * (size_t)i + 2], c->cloud[k].h[i], p->activation_mm + p->depth_limit_mm);
+    ok = ok && contact_make_lips(c, m, e);
     if (ok && c->node_count == 0)
         ok = err_set(e, ERR_INPUT, "contact is on, but no node slides, is paired or is named to touch");
     if (ok) {
@@ -312,12 +244,12 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
 void contact_destroy(contact **c)
 {
     if (!*c) return;
-    for (int k = 0; k < COLLIDER_COUNT; k++) imls_free(&(*c)->cloud[k]);
     for (int32_t l = 0; l < (*c)->link_count; l++) {
         free((*c)->link[l].sample);
         free((*c)->link[l].weight);
     }
     for (int side = 0; side < 2; side++) {
+        imls_free(&(*c)->cloud[side]);
         free((*c)->lip_node[side]);
         free((*c)->lip_tri[side]);
     }

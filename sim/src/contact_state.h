@@ -12,20 +12,17 @@ typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
     bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
-    bool faced; /* at rest the node lay over the collider, not beside it: if it gets deep, it is brought back
-                 */
+    bool faced; /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
     int turns;            /* of flat, since contact_restart */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
     /* frozen at refresh */
-    double scale;    /* of the support radii */
-    double plane_mm; /* height over the nearest facing sample's plane */
-    double aside;    /* off its normal, of h */
-    int32_t count, room, *sample;
-    bool lost;                  /* deeper than the bones moved: taken for being behind, not inside */
-    double cover;               /* C(S) */
-    double *weight, base, m[3]; /* lips: gap = base + m.(x - sum weight x_sample) */
+    bool lost;                    /* given up, see contact_report */
+    double cover;                 /* C(S) of a lip, 1 of a bone */
+    double base, m[3];            /* flat: gap = base + m.x in the bone's place at rest; */
+    int32_t count, room, *sample; /* lips: gap = base + m.(x - sum weight x_sample) */
+    double *weight;
     /* of the last contact_energy */
     double gap, delta, force[3]; /* delta = tau - gap where positive and covered, else 0; dE/dx */
     double delta_before, delta_factored;
@@ -45,9 +42,9 @@ typedef struct contact {
     int8_t *level_segment;  /* [node_count] held: the bone that a sliding node follows, else -1 */
     double *level_mm;       /* its distance from it */
     int32_t *own_sample;    /* [node_count] number in its own lip's cloud, -1: no lip */
-    imls_cloud cloud[COLLIDER_COUNT];
+    imls_cloud cloud[2];    /* upper lip, lower lip */
     int32_t *lip_node[2], *lip_tri[2], lip_tri_count[2]; /* mesh numbers of samples; triangles of samples */
-    double motion_reach_mm;
+    double motion_reach_mm; /* a node that is deeper in a lip is behind it */
     const double *rest_xyz; /* [3*mesh nodes] borrowed */
     rigid motion[SEGMENT_COUNT], back[SEGMENT_COUNT], guide;
     int32_t link_count, *link_start; /* [node_count + 1] */
@@ -58,7 +55,7 @@ typedef struct contact {
 } contact;
 
 /* attach: as the caller gave it, with sliding and paired nodes. Refuses (ERR_INPUT) parameters out of range,
- * sliding nodes whose segment has no surface, one lip without the other, broken surfaces and face lists. */
+ * sliding nodes whose segment has no shape, one lip without the other, too fine lips and broken face lists. */
 bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setup *setup, double young_kpa,
                   contact **out, err *e) MUST_CHECK;
 void contact_destroy(contact **c);
@@ -69,7 +66,7 @@ attach_map contact_loosened(const attach_map *attach, const contact_setup *setup
 /* Forgets stiffenings and counts of the last plan. */
 void contact_restart(contact *c);
 void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *guide, const double *rest_xyz);
-/* Renews candidates, supports and the frozen lips at x[3*nodes]. */
+/* Renews what each node sees of bones and lips at x[3*nodes]. */
 void contact_refresh(contact *c, const double *x);
 /* held: puts sliding nodes at x[3*nodes] back on their levels, to first order. */
 void contact_retract(const contact *c, const attach_map *attach, double *x);
@@ -100,3 +97,17 @@ bool contact_stiffen(contact *c);
 double contact_force(const contact *c);
 /* Of the last contact_energy. */
 contact_report contact_measure(const contact *c);
+
+/* Lips, contact_lips.c. Samples at their nodes, and what they couple; refuses what contact_make does of lips. */
+bool contact_make_lips(contact *c, const tetmesh *m, err *e) MUST_CHECK;
+/* Their samples at x[3*nodes]. */
+void contact_move_lips(contact *c, const double *x);
+/* How a node at x[3*nodes] lies to the other lip. */
+typedef struct lip_view {
+    int32_t nearest;           /* sample that faces it; -1: none, the rest is not known */
+    double plane_mm, aside_mm; /* height over that one's plane; off its normal */
+    bool deep;                 /* too deep for the plain support */
+} lip_view;
+lip_view contact_view_lip(const contact *c, int32_t i, const contact_link *link, const double *x);
+/* What the node sees of it, frozen. */
+void contact_refresh_lip(contact *c, int32_t i, contact_link *link, const double *x);

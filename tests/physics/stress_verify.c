@@ -84,11 +84,45 @@ static void whatever_is_tampered_with_is_found_out(void **state)
     for (int how = FREE_NODE; how <= INSIDE_OUT; how++) judge((tampering)how, false);
 }
 
+static void a_node_in_the_bone_is_found_out(void **state)
+{
+    (void)state;
+    static void (*const body[4])(const stress_case *, stress_scene *) = {specimen_on_plane, specimen_on_teeth, specimen_on_ball,
+                                                                         specimen_on_rim};
+    static const double size[4] = {0, 2, 20, 0};
+    for (int k = 0; k < 4; k++) {
+        err e = {0};
+        stress_case c = quiet;
+        c.body = body[k];
+        c.p = size[k];
+        c.check = CHECK_ABOVE;
+        c.slack_mm = 0.14;
+        memcpy(c.move, (double[]){0, 0, -2}, sizeof c.move);
+        stress_scene s;
+        stress_scene_make(&c, 0, &s);
+        equilibrium_problem problem = stress_problem(&s);
+        equilibrium q;
+        assert_ok(equilibrium_solve(&problem, &s.params, &q, &e));
+        assert_int_equal(q.outcome, SOLVED);
+        for (int raised = 0; raised < 2; raised++) {
+            stress_result r = {0};
+            s.bone.at[2] += raised ? 0.5 : 0;
+            stress_verify(&c, &s, &q, &r);
+            assert_int_equal(strstr(r.wrong, "below the surface") != NULL, raised);
+            assert_int_equal(r.wrong[0] != 0, raised);
+            if (raised) print_message("found out: %s\n", r.wrong);
+        }
+        equilibrium_free(&q);
+        stress_scene_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_true_equilibrium_passes),
         cmocka_unit_test(whatever_is_tampered_with_is_found_out),
+        cmocka_unit_test(a_node_in_the_bone_is_found_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,74 +1,32 @@
 /* Tissue that keeps in touch with bones of known shape: it slides along their surface and enters none. */
 #include "tests/check.h"
+#include "app/stress/shapes.h"
 #include "geometry/parallel.h"
 #include "sim/src/contact_state.h"
 #include "tests/physics/setting.h"
 #include <string.h>
 
-typedef struct ball {
-    double centre[3], radius;
-} ball;
-
-static double ball_distance(const void *context, const double x[3], double grad[3], double *hess)
-{
-    const ball *b = context;
-    double r[3];
-    vec_sub(x, b->centre, r);
-    double size = vec_norm(r);
-    vec_scale(r, 1 / size, grad);
-    for (int i = 0; hess && i < 9; i++) hess[i] = ((i % 4 == 0) - grad[i / 3] * grad[i % 3]) / size;
-    return size - b->radius;
-}
-
 /* The same level, but a gradient whose length grows with the distance. */
 static double ball_squared(const void *context, const double x[3], double grad[3], double *hess)
 {
-    const ball *b = context;
+    const known_bone *b = context;
     double r[3];
-    vec_sub(x, b->centre, r);
-    vec_scale(r, 1 / b->radius, grad);
-    for (int i = 0; hess && i < 9; i++) hess[i] = (i % 4 == 0) / b->radius;
-    return (vec_dot(r, r) - b->radius * b->radius) / (2 * b->radius);
-}
-
-static bool never_leaves(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
-                         double normal[3])
-{
-    (void)context, (void)x, (void)direction, (void)reach_mm, (void)hit, (void)normal;
-    return false;
-}
-
-/* All space within 0.5 mm of z = 0. */
-static double plate_distance(const void *context, const double x[3], double grad[3], double *hess)
-{
-    (void)context;
-    double root = sqrt(x[2] * x[2] + 1e-4);
-    vec_copy((double[]){0, 0, x[2] / root}, grad);
-    if (hess) memset(hess, 0, 9 * sizeof *hess);
-    if (hess) hess[8] = 1e-4 / (root * root * root);
-    return root - 0.5;
-}
-
-static bool leaves_plate(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
-                         double normal[3])
-{
-    (void)context;
-    double side = direction[2] > 0 ? 1 : -1, way = (0.5 * side - x[2]) / direction[2];
-    vec_axpy(x, way, direction, hit);
-    vec_copy((double[]){0, 0, side}, normal);
-    return way > 0 && way <= reach_mm;
+    vec_sub(x, b->at, r);
+    vec_scale(r, 1 / b->size, grad);
+    for (int i = 0; hess && i < 9; i++) hess[i] = (i % 4 == 0) / b->size;
+    return (vec_dot(r, r) - b->size * b->size) / (2 * b->size);
 }
 
 /* A shell of tissue 6 mm thick on a ball of the cranium, its outside tied to the maxilla. */
-static void shell_on_ball(setting *s, const ball *b)
+static void shell_on_ball(setting *s, const known_bone *b)
 {
     block cells = {5, 5, 3, {20, 20, 6}, 5, 0};
     *s = (setting){.mesh = block_mesh(&cells), .table = tissue_material(MATERIAL_SNH_LOG, 15, 0.45)};
     s->attach = attach_map_new(s->mesh.vertex_count, 0);
     for (int32_t v = 0; v < s->mesh.vertex_count; v++) {
-        double *x = s->mesh.xyz + 3 * (size_t)v, n[3] = {x[0] - 10, x[1] - 10, b->radius}, height = x[2];
+        double *x = s->mesh.xyz + 3 * (size_t)v, n[3] = {x[0] - 10, x[1] - 10, b->size}, height = x[2];
         vec_normalize(n);
-        vec_axpy(b->centre, b->radius + height, n, x);
+        vec_axpy(b->at, b->size + height, n, x);
         if (height == 6) tie(&s->attach, v, SEGMENT_MAXILLA);
         if (height != 0) continue;
         s->attach.kind[v] = NODE_SLIDING;
@@ -89,12 +47,12 @@ static contact_setup held_by(const bone_shape *cranium, const bone_shape *maxill
 static void a_shell_turns_on_a_ball_as_one_piece(void **state)
 {
     (void)state;
-    ball b = {{5, -3, 2}, 30};
-    bone_shape shape = {.context = &b, .distance = ball_distance, .leave = never_leaves};
+    known_bone b = {KNOWN_BALL, {5, -3, 2}, 30, 0};
+    bone_shape shape = known_shape(&b);
     contact_setup touch = held_by(&shape, NULL);
     setting s;
     shell_on_ball(&s, &b);
-    rigid turn = rigid_rotation(b.centre, (double[]){1 / sqrt(5), 2 / sqrt(5), 0}, 0.3);
+    rigid turn = rigid_rotation(b.at, (double[]){1 / sqrt(5), 2 / sqrt(5), 0}, 0.3);
     s.problem.motion[SEGMENT_MAXILLA] = turn;
     solve_params params = solve_params_default();
     for (int with = 0; with < 2; with++) {
@@ -125,8 +83,8 @@ static void the_bend_of_a_level_is_in_the_stiffness(void **state)
 {
     (void)state;
     err e = {0};
-    ball b = {{5, -3, 2}, 30};
-    bone_shape shape = {.context = &b, .distance = ball_squared, .leave = never_leaves};
+    known_bone b = {KNOWN_BALL, {5, -3, 2}, 30, 0};
+    bone_shape shape = {.context = &b, .distance = ball_squared};
     contact_setup touch = held_by(&shape, NULL);
     setting s;
     contact *c = NULL;
@@ -194,9 +152,9 @@ typedef struct ball_below {
 } ball_below;
 
 /* The block over a ball of the maxilla; *out is not to be moved, and its bottom is the caller's to free. */
-static void hang_over_ball(setting *s, const ball *b, ball_below *out)
+static void hang_over_ball(setting *s, const known_bone *b, ball_below *out)
 {
-    out->shape = (bone_shape){.context = b, .distance = ball_distance, .leave = never_leaves};
+    out->shape = known_shape(b);
     out->touch = held_by(NULL, &out->shape);
     hanging_block(s, &out->bottom, &out->touch.extra_count);
     out->touch.extra = out->bottom;
@@ -205,7 +163,7 @@ static void hang_over_ball(setting *s, const ball *b, ball_below *out)
 static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energy(void **state)
 {
     (void)state;
-    ball b = {{9, 8, -11}, 10};
+    known_bone b = {KNOWN_BALL, {9, 8, -11}, 10, 0};
     setting s;
     ball_below under;
     hang_over_ball(&s, &b, &under);
@@ -226,7 +184,7 @@ static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energ
         for (int32_t i = 0; i < under.touch.extra_count; i++) {
             double x[3], grad[3];
             vec_sub(q.xyz + 3 * (size_t)under.bottom[i], (double[]){0, 0, 4}, x);
-            assert_true(ball_distance(&b, x, grad, NULL) > -0.1);
+            assert_true(under.shape.distance(&b, x, grad, NULL) > -0.1);
         }
         printf("%d nodes touch, %.3f mm deep, %d iterations\n", q.contact.active_nodes, q.contact.depth_mm, q.iterations);
         equilibrium_free(&q);
@@ -242,7 +200,8 @@ static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energ
 static void tissue_comes_back_to_its_own_side_of_a_thin_bone(void **state)
 {
     (void)state;
-    bone_shape shape = {.distance = plate_distance, .leave = leaves_plate};
+    known_bone plate = {KNOWN_PLATE, {0, 0, 0}, 0.5, 0.02};
+    bone_shape shape = known_shape(&plate);
     contact_setup touch = held_by(NULL, &shape);
     setting s;
     int32_t *bottom;
@@ -264,7 +223,7 @@ static void tissue_comes_back_to_its_own_side_of_a_thin_bone(void **state)
 static void what_nothing_comes_near_costs_nothing_and_changes_nothing(void **state)
 {
     (void)state;
-    ball b = {{9, 8, -40}, 10};
+    known_bone b = {KNOWN_BALL, {9, 8, -40}, 10, 0};
     setting s;
     ball_below under;
     hang_over_ball(&s, &b, &under);
@@ -285,7 +244,7 @@ static void what_nothing_comes_near_costs_nothing_and_changes_nothing(void **sta
 static void every_thread_count_gives_the_same_bits(void **state)
 {
     (void)state;
-    ball b = {{9, 8, -11}, 10};
+    known_bone b = {KNOWN_BALL, {9, 8, -11}, 10, 0};
     setting s;
     ball_below under;
     hang_over_ball(&s, &b, &under);
