@@ -52,8 +52,8 @@ static json_t *convergence_json(const equilibrium *q)
 static json_t *contact_json(const contact_report *c)
 {
     if (!c->on) return json_pack("{sb}", "on", false);
-    return json_pack("{sb sb si si si si si si sf sf sf sf sf sf si si si sf si si}", "on", true, "held", c->held, "nodes", c->nodes, "touching_nodes",
-                     c->active_nodes, "left_out", c->left_out, "lost", c->lost, "pinched", c->pinched, "passed", c->passed, "slide_off_mm", c->slide_off_mm, "depth_mm", c->depth_mm, "bone_area_mm2",
+    return json_pack("{sb sb si si si si si si si sf sf sf sf sf sf si si si sf si si}", "on", true, "held", c->held, "nodes", c->nodes, "touching_nodes",
+                     c->active_nodes, "left_out", c->left_out, "lost", c->lost, "pinched", c->pinched, "passed", c->passed, "guards", c->guards, "slide_off_mm", c->slide_off_mm, "depth_mm", c->depth_mm, "bone_area_mm2",
                      c->bone_area_mm2, "lip_area_mm2", c->lip_area_mm2, "pressure_kPa", c->pressure_kpa, "energy_uJ",
                      c->energy_uj, "free_iterations", c->free_iterations, "contact_iterations",
                      c->contact_iterations, "refreshes", c->refreshes, "last_refresh_mm", c->refresh_change_mm,
@@ -281,6 +281,8 @@ void outcome_print(const outcome *o)
         printf("%d nodes of the lining went right through a bone, as between tooth rows that change places: the shape is not to "
                "be trusted near there\n",
                c->passed);
+    if (c->on && c->guards)
+        printf("%d nodes are held by planes before a bone that they would else have gone through\n", c->guards);
     if (c->on && c->lost) printf("%d nodes in bone were given up: on which side of it they belong is not clear\n", c->lost);
     if (c->on && c->pinched)
         printf("%d nodes lie where two bones overlap and cannot be out of both\n", c->pinched);

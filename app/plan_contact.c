@@ -134,15 +134,24 @@ static bool is_run_over(const bone_shapes *s, const rigid motion[SEGMENT_COUNT],
 
 int32_t plan_contact_release(const tissue *t, const bone_shapes *bones, const rigid motion[SEGMENT_COUNT], attach_map *attach)
 {
+    uint8_t *loose = NEW_ARRAY(uint8_t, attach->node_count);
     int32_t count = 0;
+    for (int32_t v = 0; v < attach->node_count; v++)
+        loose[v] = attach->kind[v] == NODE_SLIDING && is_run_over(bones, motion, attach->segment[v], t->mesh.xyz + 3 * (size_t)v);
+    for (int32_t f = 0; f < t->mesh.tet_count; f++) {
+        const int32_t *v = t->mesh.tet + 4 * (size_t)f;
+        bool next = false;
+        for (int k = 0; k < 4; k++) next = next || loose[v[k]] == 1;
+        for (int k = 0; k < 4; k++)
+            if (next && !loose[v[k]] && attach->kind[v[k]] == NODE_SLIDING) loose[v[k]] = 2;
+    }
     for (int32_t v = 0; v < attach->node_count; v++) {
-        if (attach->kind[v] != NODE_SLIDING ||
-            !is_run_over(bones, motion, attach->segment[v], t->mesh.xyz + 3 * (size_t)v))
-            continue;
+        if (!loose[v]) continue;
         attach->kind[v] = NODE_FREE;
         attach->segment[v] = -1;
         count++;
     }
+    free(loose);
     return count;
 }
 

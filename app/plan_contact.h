@@ -15,7 +15,8 @@ typedef struct plan_contact {
 } plan_contact;
 
 /* Mucosa that its own bone would carry into another one, or through it, as the lower lip's lining where upper incisors
- * come to stand in front of lower ones: it hangs on nothing any more. Returns how many nodes. */
+ * come to stand in front of lower ones: it hangs on nothing any more, nor does the
+ * mucosa that shares tets with it. Returns how many nodes. */
 int32_t plan_contact_release(const tissue *t, const bone_shapes *bones, const rigid motion[SEGMENT_COUNT], attach_map *attach);
 /* attach, motion: of the plan; kind: not CONTACT_OFF. All are borrowed; the caller frees *out first. */
 void plan_contact_make(contact_kind kind, const tissue *t, const bone_shapes *bones, const attach_map *attach,

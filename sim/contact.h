@@ -9,7 +9,10 @@
  * level set of its own bone's distance on which it lay at rest, not the tangent plane there: before each Newton
  * step the plane that holds it is laid anew to the level, each trial step ends on it (retraction), and the
  * Hessian holds the level's bend (minus reaction times Hessian of d). Everything else is kept out of bones. It comes
- * late: loads before the last are solved without, unless that fails. Not held: sliding nodes may lift off, lips part
+ * late: loads before the last are solved without, unless that fails; so a node on a free surface can get right through a
+ * thin bone unseen. Where its straight way from rest leads through a bone, a guard brings it back: a plane across the
+ * way that it should be pushed, just inside the bone's face, which stays to the end (a bone that is bulked up to its back).
+ * Not held: sliding nodes may lift off, lips part
  * and meet.
  *
  * A lip is a signed distance by implicit moving least squares (Kolluri 2008): samples are its nodes with their unit
@@ -78,6 +81,7 @@ typedef struct contact_report {
     int32_t left_out;     /* nodes of one lip that lie deep in the other at rest */
     int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
     int32_t passed;       /* nodes that seem to have gone right through a bone */
+    int32_t guards;       /* planes that keep nodes from it, or from turning for ever at a thin bone */
     int32_t lost;         /* combinations given up: at a thin bone whose side is not clear, or deeper in a lip than the
                              bones have moved, so taken for behind; not pushed */
     int32_t active_nodes; /* that do touch */

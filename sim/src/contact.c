@@ -17,6 +17,7 @@ void contact_restart(contact *c)
     for (int32_t l = 0; l < c->link_count; l++) {
         c->link[l].stiffening = 1;
         c->link[l].turns = 0;
+        if (c->link[l].guard) c->link[l].near = false;
     }
     c->report = (contact_report){.left_out = left_out};
 }

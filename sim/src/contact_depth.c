@@ -17,7 +17,7 @@ bool contact_is_pinched(const contact *c, int32_t i)
 
 static double depth_of(const contact_link *link)
 {
-    if (!(link->delta > 0) || link->cover < covered) return 0;
+    if (!(link->delta > 0) || link->cover < covered || link->guard) return 0;
     return fmax(0, link->depth_from_mm - link->gap);
 }
 
@@ -48,7 +48,7 @@ contact_report contact_measure(const contact *c)
     r.held = c->setup.held;
     r.nodes = c->node_count;
     r.links = c->link_count;
-    r.active_nodes = r.lost = r.pinched = 0;
+    r.active_nodes = r.lost = r.pinched = r.guards = 0;
     r.depth_mm = r.bone_area_mm2 = r.lip_area_mm2 = r.pressure_kpa = r.energy_uj = 0;
     memset(r.bone_force_mn, 0, sizeof r.bone_force_mn);
     for (int32_t i = 0; i < c->node_count; i++) {
@@ -59,6 +59,7 @@ contact_report contact_measure(const contact *c)
             const contact_link *link = &c->link[l];
             if (!pinched) r.depth_mm = fmax(r.depth_mm, depth_of(link));
             r.lost += link->lost;
+            r.guards += link->near && contact_plane_stays(link);
             if (!is_lip(link))
                 vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);
             double pressure = vec_norm(link->force) / c->area[i] * (is_lip(link) ? 2 : 1);

@@ -151,7 +151,7 @@ static bool find_nodes(contact *c, const tetmesh *m, const attach_map *a, err *e
 static void make_links(contact *c, const attach_map *a)
 {
     c->link_start = NEW_ARRAY(int32_t, (size_t)c->node_count + 1);
-    c->link = NEW_ARRAY(contact_link, COLLIDER_COUNT * (size_t)c->node_count);
+    c->link = NEW_ARRAY(contact_link, 2 * COLLIDER_COUNT * (size_t)c->node_count);
     for (int32_t i = 0; i < c->node_count; i++) {
         c->link_start[i] = c->link_count;
         int other = -1; /* lip */
@@ -163,7 +163,10 @@ static void make_links(contact *c, const attach_map *a)
         for (int k = 0; k < COLLIDER_COUNT; k++) {
             if (k < SEGMENT_COUNT ? !c->setup.shape[k] : k != other) continue;
             if (c->setup.held && a->kind[c->node[i]] == NODE_SLIDING && a->segment[c->node[i]] == k) continue;
-            c->link[c->link_count++] = (contact_link){.collider = k, .stiffening = 1, .cover = 1, .faced = true};
+            contact_link link = {.collider = k, .stiffening = 1, .cover = 1, .faced = true};
+            c->link[c->link_count++] = link;
+            link.guard = true;
+            if (c->setup.held && a->kind[c->node[i]] == NODE_FREE) c->link[c->link_count++] = link;
         }
     }
     c->link_start[c->node_count] = c->link_count;
@@ -196,7 +199,7 @@ static void measure_rest(contact *c, const tetmesh *m)
             contact_link *link = &c->link[l];
             double rest = link->gap;
             if (is_lip(link)) rest = look_at_lip(c, i, link, m->xyz);
-            link->threshold_mm = fmin(c->setup.params.activation_mm, rest);
+            link->threshold_mm = link->guard ? 0 : fmin(c->setup.params.activation_mm, rest);
             link->depth_from_mm = fmin(0, rest);
         }
 }

@@ -11,6 +11,7 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
+    bool guard; /* no contact: a plane behind which the node must not get, where `near`; of the bone of the link before */
     bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
     bool faced; /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
     int turns;            /* of flat, since contact_restart */
@@ -27,6 +28,13 @@ typedef struct contact_link {
     double gap, delta, force[3]; /* delta = tau - gap where positive and covered, else 0; dE/dx */
     double delta_before, delta_factored;
 } contact_link;
+
+/* At a thin bone a node would turn for ever between its surface and the plane at its way back: in the end that stays. */
+static inline bool contact_plane_stays(const contact_link *link)
+{
+    enum { MOST_TURNS = 6 /* even: the next one is to the plane */ };
+    return link->guard || link->turns > MOST_TURNS;
+}
 
 static inline bool is_lip(const contact_link *link)
 {
@@ -85,8 +93,14 @@ double contact_force_noise(const contact *c, const double *x);
 void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
+/* A shape knows its inside, but of a thin bone not the side from which the node came: where a node at x[3*nodes] would be
+ * pushed on the way that it went, its link becomes the plane at its way back (flat). Right through a bone it goes unseen. */
+void contact_find_side(const contact *c, int32_t i, contact_link *link, const double *x);
 /* Nodes outside a bone at x[3*nodes] that, as it seems, came through it. */
 int32_t contact_passed(const contact *c, const double *x);
+/* held: puts guards before those that hang on no bone, across the way that they should be pushed and just inside the
+ * bone's face there, to stay until contact_restart; returns how many are new. */
+int32_t contact_guard(contact *c, const double *x);
 /* Of active gaps between the energies before and after the last refresh, mm. */
 double contact_refresh_change(const contact *c);
 /* Do two bones press the node against each other? Where bones overlap no force brings it out of both. */

@@ -135,6 +135,18 @@ static double bones_move(const solver *t)
     return most;
 }
 
+/* Guards against passing through a bone, at an equilibrium good enough to tell. False: none is missing. */
+static bool add_guards(descent *d)
+{
+    if (!d->touching || !d->t->touch->setup.held || d->load < 1) return false;
+    if (!is_solved(d) && d->residual > d->params->intermediate_rel_tol * d->out->reference_mn) return false;
+    int32_t count = contact_guard(d->t->touch, d->x);
+    if (!count) return false;
+    point_measure(d);
+    d->has_factor = false;
+    return true;
+}
+
 /* Iterates until is_solved. */
 static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *outcome, err *e)
 {
@@ -155,6 +167,10 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
             }
             point_measure(d);
             d->has_factor = false;
+        }
+        if (fresh && add_guards(d)) {
+            fresh = false;
+            continue;
         }
         if (is_solved(d)) {
             *outcome = SOLVED;
@@ -260,6 +276,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
         /* contact changes the matrix too much from step to step for a preconditioner to last */
         if (d->params->linear == LINEAR_AUTO && t->b.unknown_count <= FACTORS_UP_TO) d->inexact = false;
         refresh(d);
+        if (t->touch->setup.held && load == 1 && contact_guard(t->touch, d->x)) point_measure(d);
     }
     int counted = 0, *done = d->touching ? &d->out->contact.contact_iterations : &counted;
     return iterate(d, d->params->max_iterations, done, outcome, e);
