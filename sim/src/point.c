@@ -68,18 +68,29 @@ void point_record(descent *d, int iteration, double step, hessian_kind kind, dou
     if (d->params->progress) d->params->progress(r, d->params->context);
 }
 
+double point_yield(descent *d, double *x, double *z)
+{
+    double farthest = contact_yield(d->t->touch, &d->t->b, x, z);
+    if (!(farthest > 0)) return 0;
+    boundary_place(&d->t->b, z, x);
+    contact_retract(d->t->touch, d->t->attach, x);
+    return farthest;
+}
+
 double point_line_search(descent *d)
 {
     int64_t n = d->t->b.unknown_count;
     double slope = point_dot(d->g, d->direction, n), longest = 0;
     if (!(slope < 0)) return 0;
     for (int64_t i = 0; i < n; i++) longest = fmax(longest, fabs(d->direction[i]));
+    if (d->touching) contact_mark(d->t->touch);
     double limit = d->touching ? fmin(touching_step_mm, d->params->max_step_mm) : d->params->max_step_mm;
     double step = longest > limit ? limit / longest : 1;
     for (int cut = 0; cut <= d->params->max_step_cuts; cut++, step /= 2) {
         for (int64_t i = 0; i < n; i++) d->z_new[i] = d->z[i] + step * d->direction[i];
         boundary_place(&d->t->b, d->z_new, d->x_new);
         if (d->touching) contact_retract(d->t->touch, d->t->attach, d->x_new);
+        double yielded = d->touching ? point_yield(d, d->x_new, d->z_new) : 0;
         double energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
         if (!isfinite(energy)) continue;
         bool falls = energy <= d->energy + armijo * step * slope;
@@ -87,7 +98,7 @@ double point_line_search(descent *d)
             falls = point_dot(d->g_new, d->g_new, n) < point_dot(d->g, d->g, n);
         if (!falls) continue;
         d->residual_before = d->residual;
-        d->last_step = step * longest;
+        d->last_step = fmax(step * longest, yielded);
         point_accept(d, energy);
         return step;
     }
