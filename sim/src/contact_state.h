@@ -88,11 +88,11 @@ void contact_stiffness(contact *c, const double *x, const double *force, bool ex
 bool contact_is_deep(const contact *c, double delta);
 /* The links of the last contact_energy are those of the iterate from which steps are tried. */
 void contact_mark(contact *c);
-/* Bone contacts at the trial point x[3*nodes] whose depth the step did not foresee, new ones above all: adds to z[unknowns]
+/* Bone contacts of the last contact_energy, at a trial point, whose depth the step did not foresee, new ones above all: adds to z[unknowns]
  * what brings their nodes out to where the tissue around them holds against the contact, of second order in the step. One
  * node of thousands would else cut the steps of all. What was deep before is left to the steps: it is to come out together
  * with the tissue around. Returns the farthest move, mm. */
-double contact_yield(contact *c, const boundary *b, const double *x, double *z);
+double contact_yield(const contact *c, const boundary *b, double *z);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
 /* Nodes outside a bone at x[3*nodes] that, as it seems, came through it. */

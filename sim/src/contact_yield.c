@@ -26,10 +26,9 @@ static bool is_unforeseen(const contact *c, const contact_link *link)
     return !is_lip(link) && link->delta > 0 && more > c->setup.params.depth_mm / 4 && !contact_is_deep(c, link->delta_here);
 }
 
-double contact_yield(contact *c, const boundary *b, const double *x, double *z)
+double contact_yield(const contact *c, const boundary *b, double *z)
 {
     double farthest = 0;
-    contact_energy(c, x, NULL);
     for (int32_t i = 0; i < c->node_count; i++)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             const contact_link *link = &c->link[l];

@@ -70,11 +70,21 @@ void point_record(descent *d, int iteration, double step, hessian_kind kind, dou
 
 double point_yield(descent *d, double *x, double *z)
 {
-    double farthest = contact_yield(d->t->touch, &d->t->b, x, z);
+    double farthest = contact_yield(d->t->touch, &d->t->b, z);
     if (!(farthest > 0)) return 0;
     boundary_place(&d->t->b, z, x);
     contact_retract(d->t->touch, d->t->attach, x);
     return farthest;
+}
+
+/* Is the trial point low enough after this fraction of the direction? */
+static bool falls_enough(const descent *d, double energy, double step, double slope)
+{
+    int64_t n = d->t->b.unknown_count;
+    if (!isfinite(energy)) return false;
+    if (energy <= d->energy + armijo * step * slope) return true;
+    return energy <= d->energy + d->energy_noise && /* too near for the energy to tell */
+           point_dot(d->g_new, d->g_new, n) < point_dot(d->g, d->g, n);
 }
 
 double point_line_search(descent *d)
@@ -90,12 +100,13 @@ double point_line_search(descent *d)
         for (int64_t i = 0; i < n; i++) d->z_new[i] = d->z[i] + step * d->direction[i];
         boundary_place(&d->t->b, d->z_new, d->x_new);
         if (d->touching) contact_retract(d->t->touch, d->t->attach, d->x_new);
-        double yielded = d->touching ? point_yield(d, d->x_new, d->z_new) : 0;
-        double energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
-        if (!isfinite(energy)) continue;
-        bool falls = energy <= d->energy + armijo * step * slope;
-        if (!falls && energy <= d->energy + d->energy_noise) /* too near for the energy to tell */
-            falls = point_dot(d->g_new, d->g_new, n) < point_dot(d->g, d->g, n);
+        double energy = point_evaluate(d, d->x_new, d->force_new, d->g_new), yielded = 0;
+        bool falls = falls_enough(d, energy, step, slope);
+        if (!falls && d->touching && isfinite(energy)) {
+            yielded = point_yield(d, d->x_new, d->z_new);
+            if (yielded > 0) energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
+            falls = yielded > 0 && falls_enough(d, energy, step, slope);
+        }
         if (!falls) continue;
         d->residual_before = d->residual;
         d->last_step = fmax(step * longest, yielded);

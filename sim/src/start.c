@@ -67,11 +67,10 @@ bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_i
     if (!*ok) return true;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->z_new[i] = d->z[i] - d->direction[i];
     boundary_place(&d->t->b, d->z_new, d->x_new);
-    if (d->touching) {
-        contact_retract(d->t->touch, d->t->attach, d->x_new);
-        point_yield(d, d->x_new, d->z_new);
-    }
+    if (d->touching) contact_retract(d->t->touch, d->t->attach, d->x_new);
     double energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
+    if (d->touching && point_yield(d, d->x_new, d->z_new) > 0)
+        energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
     *ok = isfinite(energy);
     if (*ok) point_accept(d, energy);
     return true;
