@@ -210,6 +210,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, bool 
 {
     solver *t = d->t;
     d->load = load;
+    d->warm = warm;
     d->rel_tol = rel_tol;
     d->has_factor = false;
     d->pair_count = 0;

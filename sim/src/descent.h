@@ -53,6 +53,7 @@ typedef struct descent {
     bool touching; /* contact counts now */
     bool touch_on_the_way; /* held contact counts at all loads, not at the last one only */
     bool cut;      /* the last step was */
+    bool warm;     /* this load began near an equilibrium with contact */
     int64_t cg_at_load;
     double blend;    /* part of the clamped matrix that the last blend needed */
     int blend_tries; /* until the last factor of this load; 0: it is one of the true matrix */
