@@ -100,7 +100,8 @@ bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_i
                    err *e) MUST_CHECK;
 
 /* direct.c */
-/* The part of the clamped matrix with which a ladder of blends begins; each rung is twice the one before. */
+/* The part of the clamped matrix with which a ladder of blends begins; each rung is twice the one before, four times under
+ * contact. */
 double direct_first_rung(const descent *d);
 /* Fills the assembly's matrix at x, with contact where it counts. */
 void direct_fill(descent *d, const double *x, projection how);
