@@ -12,6 +12,8 @@ bool nearest_create(const surface *s, nearest **out, err *e) MUST_CHECK;
 void nearest_destroy(nearest **n);
 /* Distance in mm from p to the surface; point and triangle may be NULL. */
 double nearest_point(const nearest *n, const double p[3], double point[3], int32_t *triangle);
+/* The same from the answer at a place nearby, point and triangle, which make way for the answer here: quicker. */
+double nearest_point_onward(const nearest *n, const double p[3], double point[3], int32_t *triangle);
 /* First hit of the ray from `from` along `direction` (need not be unit); false if none. */
 bool nearest_ray(const nearest *n, const double from[3], const double direction[3], double hit[3],
                  int32_t *triangle);

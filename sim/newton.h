@@ -10,7 +10,8 @@
  * that buckles moves on quickly then), at worst the whole of it, and only where that fails too a multiple of
  * the identity is added. Between factorisations the old factor is improved by the last steps (L-BFGS: Nocedal
  * 1980, with the factor as initial matrix) while that is the cheaper way down. Steps are halved until the
- * energy falls enough (Armijo); where the fall is below rounding, until the residual falls. A tet may invert
+ * energy falls enough (Armijo); where the fall is below rounding, until the residual falls. Under contact a step that a few
+ * nodes would take too deep is not cut for all: those nodes give way at once, each to where the tissue around it holds. A tet may invert
  * on the way and in the result: the Stable Neo-Hookean energies allow it, so it is counted, not hidden.
  * Several equilibria can exist; the one reached depends on the load path, which is recorded. */
 #pragma once

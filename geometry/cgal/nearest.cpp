@@ -59,6 +59,16 @@ double nearest_point(const nearest *n, const double p[3], double at[3], int32_t 
     return std::sqrt(CGAL::squared_distance(found.first, point(p[0], p[1], p[2])));
 }
 
+double nearest_point_onward(const nearest *n, const double p[3], double at[3], int32_t *number)
+{
+    const point here(p[0], p[1], p[2]);
+    auto found = n->boxes.closest_point_and_primitive(
+        here, {point(at[0], at[1], at[2]), n->triangles.cbegin() + *number});
+    for (int c = 0; c < 3; c++) at[c] = found.first[c];
+    *number = static_cast<int32_t>(found.second - n->triangles.cbegin());
+    return std::sqrt(CGAL::squared_distance(found.first, here));
+}
+
 bool nearest_ray(const nearest *n, const double from[3], const double direction[3], double hit[3], int32_t *number)
 {
     kernel::Ray_3 ray(point(from[0], from[1], from[2]), kernel::Vector_3(direction[0], direction[1], direction[2]));

@@ -52,7 +52,8 @@ void distance_field_destroy(distance_field **f)
 static double *find_block(const distance_field *f, const int32_t at[3])
 {
     static const int back[3] = {1, SIDE, SIDE * SIDE};
-    double *value = NEW_ARRAY(double, BLOCK);
+    double *value = NEW_ARRAY(double, BLOCK), place[BLOCK][3];
+    int32_t triangle[BLOCK];
     for (int s = 0; s < BLOCK; s++) {
         int k[3] = {s % SIDE, s / SIDE % SIDE, s / (SIDE * SIDE)};
         double x[3];
@@ -61,7 +62,13 @@ static double *find_block(const distance_field *f, const int32_t at[3])
             x[c] = f->low[c] + f->step * (SIDE * at[c] + k[c]);
             if (k[c] > 0 && fabs(value[s - back[c]]) > f->step) known = s - back[c];
         }
-        value[s] = nearest_point(f->of, x, NULL, NULL);
+        int beside = s - back[k[0] > 0 ? 0 : k[1] > 0 ? 1 : 2];
+        if (s > 0) {
+            vec_copy(place[beside], place[s]);
+            triangle[s] = triangle[beside];
+            value[s] = nearest_point_onward(f->of, x, place[s], &triangle[s]);
+        } else
+            value[s] = nearest_point(f->of, x, place[s], &triangle[s]);
         if (known >= 0 ? value[known] < 0 : nearest_inside(f->of, x)) value[s] = -value[s];
     }
     return value;

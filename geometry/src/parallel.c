@@ -7,6 +7,15 @@ void parallel_set_threads(int threads) { thread_count = threads; }
 
 int parallel_threads(void) { return thread_count > 0 ? thread_count : omp_get_num_procs(); }
 
+int parallel_forbid(void)
+{
+    int levels = omp_get_max_active_levels();
+    omp_set_max_active_levels(0);
+    return levels;
+}
+
+void parallel_allow(int levels) { omp_set_max_active_levels(levels); }
+
 void parallel_for(int64_t count, int64_t grain, parallel_body *body, void *context)
 {
     if (grain < 1) grain = 1;

@@ -1,4 +1,5 @@
 #include "geometry/mem.h"
+#include "geometry/parallel.h"
 #include "sim/linear.h"
 #include "sim/src/clock.h"
 #include <assert.h>
@@ -98,7 +99,9 @@ bool linear_factor(linear *l, const double *value, double shift, bool *positive_
     l->matrix.x = (void *)(uintptr_t)value;
     l->matrix.xtype = CHOLMOD_REAL;
     l->has_factor = false;
+    int levels = parallel_forbid();
     cholmod_l_factorize_p(&l->matrix, beta, NULL, 0, l->factor, &l->common);
+    parallel_allow(levels);
     l->stats.factor_s += clock_s() - begin;
     l->stats.factorisations++;
     l->matrix.x = NULL;

@@ -172,17 +172,14 @@ static void add_level_curvature(const contact *c, int32_t i, const double *x, co
     for (int k = 0; k < 9; k++) block[k] -= vec_dot(force + v, m) / square * turned[k];
 }
 
-static bool is_deep(const contact *c, const contact_link *link)
-{
-    return link->delta > shallow_depths * c->setup.params.depth_mm;
-}
+bool contact_is_deep(const contact *c, double delta) { return delta > shallow_depths * c->setup.params.depth_mm; }
 
 /* Deep contacts bend the energy so much that curvature only misleads: it counts once all are shallow. */
 static bool is_shallow(const contact *c)
 {
     for (int32_t i = 0; i < c->node_count; i++)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
-            if (is_deep(c, &c->link[l]) && !contact_is_pinched(c, i)) return false;
+            if (contact_is_deep(c, c->link[l].delta) && !contact_is_pinched(c, i)) return false;
     return true;
 }
 
@@ -204,7 +201,7 @@ static void stiffness_body(int64_t begin, int64_t end, void *context)
             double weight = stiffness_of(c, (int32_t)i, link) * link->cover;
             rigid_rotate(&c->motion[link->collider], m, m);
             add_outer(block, 6 * weight * link->delta, m);
-            if (!job->exact || (c->setup.held && is_deep(c, link))) continue;
+            if (!job->exact || (c->setup.held && contact_is_deep(c, link->delta))) continue;
             double turned[9];
             turn_hessian(c->motion[link->collider].r, hess, turned);
             for (int k = 0; k < 9; k++) block[k] -= 3 * weight * link->delta * link->delta * turned[k];
@@ -272,6 +269,7 @@ void contact_stiffness(contact *c, const double *x, const double *force, bool ex
     c->report.uncoupled = 0;
     for (int32_t i = 0; i < c->node_count; i++) {
         double *block = block_of(a, first_edge, c->node[i], c->node[i]);
+        c->around[i] = fmax(0, (block[0] + block[4] + block[8]) / 3);
         for (int k = 0; k < 9; k++) block[k] += job.block[9 * (size_t)i + (size_t)k];
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
             if (is_lip(&c->link[l]) && c->link[l].delta > 0) add_lip(c, a, first_edge, i, &c->link[l]);

@@ -24,10 +24,13 @@ static double depth_of(const contact_link *link)
 bool contact_stiffen(contact *c)
 {
     bool any = false;
+    contact_mark(c);
     for (int32_t i = 0; i < c->node_count; i++)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
             if (depth_of(&c->link[l]) > c->setup.params.depth_limit_mm && !contact_is_pinched(c, i)) {
                 c->link[l].stiffening *= stiffening_step;
+                c->link[l].delta_here = c->link[l].delta / sqrt(stiffening_step); /* where the force is what it was */
+                c->link[l].delta_factored = 0;
                 any = true;
             }
     c->report.stiffenings += any;

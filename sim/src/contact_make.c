@@ -110,6 +110,7 @@ static bool find_nodes(contact *c, const tetmesh *m, const attach_map *a, err *e
     c->node = NEW_ARRAY(int32_t, c->node_count);
     c->area = NEW_ARRAY(double, c->node_count);
     c->outward = NEW_ARRAY(double, 3 * (size_t)c->node_count);
+    c->around = NEW_ARRAY(double, c->node_count);
     c->energy = NEW_ARRAY(double, c->node_count);
     for (int32_t v = 0; v < m->vertex_count; v++)
         if (in[v]) c->node[number[v]] = v;
@@ -259,6 +260,7 @@ void contact_destroy(contact **c)
     free((*c)->node);
     free((*c)->area);
     free((*c)->outward);
+    free((*c)->around);
     free((*c)->level_mm);
     free((*c)->level_segment);
     free((*c)->own_sample);

@@ -26,7 +26,7 @@ typedef struct contact_link {
     double *weight;
     /* of the last contact_energy */
     double gap, delta, force[3]; /* delta = tau - gap where positive and covered, else 0; dE/dx */
-    double delta_before, delta_factored;
+    double delta_before, delta_factored, delta_here; /* at the last refresh, in the matrix, at contact_mark */
 } contact_link;
 
 /* At a thin bone a node would turn for ever between its surface and the plane at its way back: in the end that stays. */
@@ -47,6 +47,7 @@ typedef struct contact {
     int32_t mesh_node_count, node_count;
     int32_t *node;          /* [node_count] mesh numbers */
     double *area, *outward; /* rest: mm2; unit, out of the tissue */
+    double *around;         /* stiffness of the tissue at the node when the matrix was filled, mN/mm */
     int8_t *level_segment;  /* [node_count] held: the bone that a sliding node follows, else -1 */
     double *level_mm;       /* its distance from it */
     int32_t *own_sample;    /* [node_count] number in its own lip's cloud, -1: no lip */
@@ -91,6 +92,15 @@ double contact_force_noise(const contact *c, const double *x);
 /* Adds to a->edge_block; force[3*nodes] of the whole energy at x. exact: with the curvature of the distance
  * (indefinite), else Gauss-Newton. */
 void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a);
+/* So deep that its curvature only misleads? */
+bool contact_is_deep(const contact *c, double delta);
+/* The links of the last contact_energy are those of the iterate from which steps are tried. */
+void contact_mark(contact *c);
+/* Bone contacts of the last contact_energy, at a trial point, whose depth the step did not foresee, new ones above all: adds to z[unknowns]
+ * what brings their nodes out to where the tissue around them holds against the contact, of second order in the step. One
+ * node of thousands would else cut the steps of all. What was deep before is left to the steps: it is to come out together
+ * with the tissue around. Returns the farthest move, mm. */
+double contact_yield(const contact *c, const boundary *b, double *z);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
 /* A shape knows its inside, but of a thin bone not the side from which the node came: where a node at x[3*nodes] would be
@@ -105,7 +115,7 @@ int32_t contact_guard(contact *c, const double *x);
 double contact_refresh_change(const contact *c);
 /* Do two bones press the node against each other? Where bones overlap no force brings it out of both. */
 bool contact_is_pinched(const contact *c, int32_t i);
-/* Stiffens what is deeper than the limit; false: nothing is. */
+/* Stiffens what is deeper than the limit, for contact_yield to follow; false: nothing is. */
 bool contact_stiffen(contact *c);
 /* Norm of all contact forces of the last contact_energy, mN. */
 double contact_force(const contact *c);

@@ -165,6 +165,7 @@ static bool iterate(descent *d, int max_iterations, int *done, solve_outcome *ou
                 *outcome = STOPPED_PENETRATION;
                 return true;
             }
+            point_yield(d, d->x, d->z);
             point_measure(d);
             d->has_factor = false;
         }
@@ -220,11 +221,12 @@ static bool run_free(descent *d, double reference, bool *interrupted, err *e)
     return ok;
 }
 
-bool descent_run(descent *d, double load, double rel_tol, bool free_first, const double *x_start,
+bool descent_run(descent *d, double load, double rel_tol, bool free_first, bool warm, const double *x_start,
                  solve_outcome *outcome, err *e)
 {
     solver *t = d->t;
     d->load = load;
+    d->warm = warm;
     d->rel_tol = rel_tol;
     d->has_factor = false;
     d->pair_count = 0;
@@ -232,17 +234,19 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     d->inexact = use_gradients(t, d->params);
     d->residual_before = 0;
     d->cg_at_load = 0;
+    d->blend_tries = 0;
     d->last_step = 0;
     d->cut = false;
     int cg = 0;
     double reference = start_reference(d), factor_s = 0;
-    double floor = assembly_force_noise(&t->a, t->mesh->xyz);
+    double floor = assembly_force_noise(&t->a, t->mesh->xyz), moved = bones_move(t);
+    if (warm) contact_follow(t->touch, t->attach, &t->b, x_start);
     boundary_project(&t->b, x_start, d->z);
     boundary_place(&t->b, d->z, d->x);
     floor = fmax(floor, assembly_force_noise(&t->a, d->x));
     d->tolerance = d->asked = fmax(rel_tol * reference, floor);
     bool on_the_way = load < 1 || rel_tol * reference <= floor;
-    d->settled = on_the_way ? HUGE_VAL : sqrt(rel_tol) * bones_move(t);
+    d->settled = on_the_way ? HUGE_VAL : sqrt(rel_tol) * moved;
     d->out->reference_mn = reference;
     bool late = t->touch && t->touch->setup.held && !d->touch_on_the_way;
     bool touch = t->touch && !(late && load < 1);
@@ -252,10 +256,13 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
     }
     point_measure(d);
     bool rest = isfinite(d->energy) && d->residual <= d->tolerance, ok = true, interrupted = false;
-    if (!rest && touch) {
+    if (!rest && touch && !warm) {
         d->touching = false;
         point_measure(d);
     }
+    /* contact changes the matrix too much from step to step for a preconditioner to last */
+    bool factors = d->params->linear == LINEAR_AUTO && t->b.unknown_count <= FACTORS_UP_TO;
+    if (d->touching && factors) d->inexact = false;
     if (!rest && d->params->predictor == PREDICT_ELASTIC &&
         !start_predict(d, x_start, &factor_s, &cg, &ok, e))
         return false;
@@ -270,11 +277,14 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, const
             *outcome = STOPPED_INTERRUPTED;
             return true;
         }
+        if (!d->touching) { /* the first contacts are deep */
+            d->blend = 1;
+            d->blend_tries = 2;
+        }
         d->touching = true;
         d->has_factor = false;
         d->pair_count = 0;
-        /* contact changes the matrix too much from step to step for a preconditioner to last */
-        if (d->params->linear == LINEAR_AUTO && t->b.unknown_count <= FACTORS_UP_TO) d->inexact = false;
+        if (factors) d->inexact = false;
         refresh(d);
         if (t->touch->setup.held && load == 1 && contact_guard(t->touch, d->x)) point_measure(d);
     }

@@ -5,6 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double least_part = 1.0 / 64; /* below, the true matrix itself is tried */
+
+/* Each rung of the ladder is so many times the one before. */
+static double rung(const descent *d) { return d->touching ? 4 : 2; }
+
 double direct_first_rung(const descent *d)
 {
     static const double least = 1.0 / 256, below = 4; /* the last one used may be more than is needed now */
@@ -28,14 +33,13 @@ void direct_fill(descent *d, const double *x, projection how)
 /* Between the true matrix, which is not positive definite, and the clamped one, which is: the first in a
  * coarse ladder that is. Next to a buckling tissue the clamped matrix is far too stiff along the very mode
  * that wants to move, and residuals crawl; little of it is enough to give that mode a long way down. */
-static bool factorise_blend(descent *d, const double *true_value, bool *ok, err *e)
+static bool factorise_blend(descent *d, const double *true_value, double part, bool *ok, err *e)
 {
     assembly *a = &d->t->a;
     int64_t entries = a->column_start[d->t->b.unknown_count];
     double *mixed = NEW_ARRAY(double, entries);
     bool fine = true;
-    double part = direct_first_rung(d);
-    for (; fine && !*ok && part < 1; part *= 2) {
+    for (; fine && !*ok && part < 1; part *= rung(d)) {
         for (int64_t i = 0; i < entries; i++) mixed[i] = true_value[i] + part * (a->value[i] - true_value[i]);
         fine = linear_factor(d->t->l, mixed, 0, ok, e);
         d->blend = part;
@@ -43,6 +47,14 @@ static bool factorise_blend(descent *d, const double *true_value, bool *ok, err 
     if (fine && !*ok) d->blend = 1;
     free(mixed);
     return fine;
+}
+
+/* What the last matrix needed tells where to begin: there, where it took several tries, and lower where the first was
+ * enough, down to the true matrix. */
+static double first_part(const descent *d)
+{
+    if (!d->touching || d->blend_tries == 0) return 0;
+    return d->blend_tries > 1 ? d->blend : d->blend / rung(d);
 }
 
 bool direct_factorise(descent *d, const double *x, hessian_kind *kind, bool *ok, double *seconds, err *e)
@@ -53,19 +65,27 @@ bool direct_factorise(descent *d, const double *x, hessian_kind *kind, bool *ok,
     d->pair_count = 0;
     d->has_factor = false;
     if (!solver_order(d->t, e)) return false;
-    if (*kind == HESSIAN_TRUE) {
+    double part = first_part(d);
+    int before = linear_measure(d->t->l).factorisations;
+    if (*kind == HESSIAN_TRUE && part < 1) {
+        bool whole = part < least_part;
         direct_fill(d, x, PROJECTION_NONE);
-        if (!linear_factor(d->t->l, a->value, 0, ok, e)) return false;
+        if (whole && !linear_factor(d->t->l, a->value, 0, ok, e)) return false;
+        d->blend_tries = 0;
         if (!*ok) {
             double *true_value = COPY_ARRAY(double, a->value, a->column_start[d->t->b.unknown_count]);
             direct_fill(d, x, d->params->projection);
             *kind = HESSIAN_BLENDED;
-            bool fine = factorise_blend(d, true_value, ok, e);
+            bool fine = factorise_blend(d, true_value, whole ? direct_first_rung(d) : part, ok, e);
+            d->blend_tries = linear_measure(d->t->l).factorisations - before;
             free(true_value);
             if (!fine) return false;
         }
-    } else
+    } else {
         direct_fill(d, x, d->params->projection);
+        d->blend = 1;
+        d->blend_tries = 1;
+    }
     if (!*ok && *kind <= HESSIAN_PROJECTED) {
         *kind = HESSIAN_PROJECTED;
         if (!linear_factor(d->t->l, a->value, 0, ok, e)) return false;
@@ -148,6 +168,7 @@ bool direct_reusable(const descent *d)
      * energy with forces (500 per tet) */
     double factor = 0.07 * s.factor_flops + 2500.0 * d->t->a.tet_count;
     double step = 1.5 * (double)s.factor_entries + 500.0 * d->t->a.tet_count;
+    if (d->touching && d->since_factor > factor / step + 4) return false; /* they have cost as much as a factorisation */
     double rate = log(d->residual_at_factor / d->residual) / d->since_factor;
     return rate > 0 && log(d->residual / d->tolerance) / rate < factor / step + 4;
 }

@@ -214,7 +214,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         q.loads++;
         double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
         bool loose = t->touch && (t->touch->setup.held && !d.touch_on_the_way ? target >= 1 : q.load_reached == 0) && !from_guess;
-        ok = descent_run(&d, target, rel_tol, loose, start, &outcome, e);
+        ok = descent_run(&d, target, rel_tol, loose, from_guess && t->touch, start, &outcome, e);
         if (!ok || outcome == STOPPED_INTERRUPTED) break;
         if (outcome == SOLVED) {
             q.load_reached = target;

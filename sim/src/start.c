@@ -2,6 +2,7 @@
 #include "geometry/vec.h"
 #include "sim/src/descent.h"
 #include <stdlib.h>
+#include <string.h>
 
 static const double predict_tol = 2e-3; /* of conjugate gradients: the response is not exact anyway */
 
@@ -58,11 +59,18 @@ bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_i
         *ok = false;
         return true;
     }
+    if (d->touching) {
+        memcpy(d->force, d->force_new, 3 * (size_t)d->t->b.node_count * sizeof *d->force);
+        contact_mark(d->t->touch);
+    }
     if (!respond(d, x_start, seconds, cg_iterations, ok, e)) return false;
     if (!*ok) return true;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->z_new[i] = d->z[i] - d->direction[i];
     boundary_place(&d->t->b, d->z_new, d->x_new);
+    if (d->touching) contact_retract(d->t->touch, d->t->attach, d->x_new);
     double energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
+    if (d->touching && point_yield(d, d->x_new, d->z_new) > 0)
+        energy = point_evaluate(d, d->x_new, d->force_new, d->g_new);
     *ok = isfinite(energy);
     if (*ok) point_accept(d, energy);
     return true;

@@ -272,7 +272,7 @@ static double sphere_error(material_model model, int n, double slope)
     descent d;
     solve_outcome outcome;
     descent_make(&d, t, &params, &q);
-    assert_ok(descent_run(&d, 1, 1e-10, false, m.xyz, &outcome, &e));
+    assert_ok(descent_run(&d, 1, 1e-10, false, false, m.xyz, &outcome, &e));
     assert_int_equal(outcome, SOLVED);
     double sum = 0;
     int32_t free_nodes = 0;

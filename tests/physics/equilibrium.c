@@ -33,7 +33,7 @@ static void an_affine_boundary_gives_an_affine_inside(void **state)
         descent d;
         solve_outcome outcome;
         descent_make(&d, t, &params, &q);
-        assert_ok(descent_run(&d, 1, 1e-15, false, s.mesh.xyz, &outcome, &e));
+        assert_ok(descent_run(&d, 1, 1e-15, false, false, s.mesh.xyz, &outcome, &e));
         assert_int_equal(outcome, SOLVED);
         assert_true(d.t->b.unknown_count > 30);
         for (int32_t v = 0; v < s.mesh.vertex_count; v++) {
