@@ -11,7 +11,7 @@ bool contact_is_pinched(const contact *c, int32_t i)
 {
     for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
         for (int32_t k = c->link_start[i]; k < l; k++)
-            if (c->link[l].delta > 0 && c->link[k].delta > 0 && vec_dot(c->link[l].force, c->link[k].force) < 0) return true;
+            if (c->link[l].delta > 0 && c->link[k].delta > 0 && c->link[l].collider != c->link[k].collider && vec_dot(c->link[l].force, c->link[k].force) < 0) return true;
     return false;
 }
 

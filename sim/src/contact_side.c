@@ -7,8 +7,8 @@
 static const double deep_mm = 0.3;     /* in a shape: a node whose way back is not found is given up from here on */
 static const double backwards = -0.2;  /* cosine to the way back, of a nearest surface that is the wrong one */
 static const double least_mm = 0.5;    /* of a move that can lead right through a bone */
-static const double edge_mm = 0.1;     /* of bone round which a node can have turned */
 static const double behind_mm = 0.3;   /* the bone's face on the way back, a guard's plane lies */
+static const double edge_mm = 0.4;     /* thinner bone is an edge round which a node can have turned; more than behind_mm */
 
 /* Where the node is in the bone's place at rest, and the direction that the bone's surface must face. */
 static void look(const contact *c, int32_t i, int32_t bone, const double *x, double at[3], double facing[3])
