@@ -62,7 +62,7 @@ contact_report contact_measure(const contact *c)
             const contact_link *link = &c->link[l];
             if (!pinched) r.depth_mm = fmax(r.depth_mm, depth_of(link));
             r.lost += link->lost;
-            r.guards += link->near && contact_plane_stays(link);
+            r.guards += link->near && link->guard;
             if (!is_lip(link))
                 vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);
             double pressure = vec_norm(link->force) / c->area[i] * (is_lip(link) ? 2 : 1);

@@ -167,7 +167,7 @@ static void make_links(contact *c, const attach_map *a)
             contact_link link = {.collider = k, .stiffening = 1, .cover = 1, .faced = true};
             c->link[c->link_count++] = link;
             link.guard = true;
-            if (c->setup.held && a->kind[c->node[i]] == NODE_FREE) c->link[c->link_count++] = link;
+            if (c->setup.held && !is_lip(&link)) c->link[c->link_count++] = link;
         }
     }
     c->link_start[c->node_count] = c->link_count;

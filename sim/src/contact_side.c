@@ -34,9 +34,18 @@ static bool find_way_back(const contact *c, int32_t i, int32_t bone, const doubl
            vec_distance(rest, rest_hit) <= deep_mm; /* its own surface */
 }
 
+/* A plane across the way back, which stays. */
+static void raise_guard(contact_link *guard, const double facing[3], const double hit[3], double behind)
+{
+    guard->near = guard->flat = true;
+    vec_copy(facing, guard->m);
+    guard->base = behind - vec_dot(facing, hit);
+}
+
 void contact_find_side(const contact *c, int32_t i, contact_link *link, const double *x)
 {
-    if (contact_plane_stays(link)) return;
+    enum { MOST_TURNS = 6 };
+    contact_link *guard = c->setup.held ? link + 1 : NULL;
     const bone_shape *shape = c->setup.shape[link->collider];
     double at[3], facing[3], grad[3], hit[3];
     look(c, i, link->collider, x, at, facing);
@@ -47,7 +56,12 @@ void contact_find_side(const contact *c, int32_t i, contact_link *link, const do
     if (link->flat) link->base = -vec_dot(link->m, hit);
     link->turns += link->flat != before;
     link->lost = wrong && !link->flat && d < -deep_mm;
-    link->near = link->flat || (d < HUGE_VAL && !link->lost);
+    if (link->flat && link->turns > MOST_TURNS) { /* it would turn for ever: the plane stays, and the bone's right side */
+        if (guard && !guard->near) raise_guard(guard, facing, hit, 0);
+        link->flat = false;
+        link->lost = !guard;
+    }
+    link->near = link->flat || (d < HUGE_VAL && !link->lost && !(wrong && link->turns > MOST_TURNS));
 }
 
 /* Outside, but its straight way there leads through the bone, and so does the way that it should be pushed. hit: where
@@ -80,6 +94,9 @@ int32_t contact_passed(const contact *c, const double *x)
     return count;
 }
 
+/* Sliding nodes are where their own bone has them. */
+static bool is_free(const contact *c, int32_t i) { return c->level_segment[i] < 0; }
+
 int32_t contact_guard(contact *c, const double *x)
 {
     int32_t count = 0;
@@ -87,10 +104,8 @@ int32_t contact_guard(contact *c, const double *x)
     for (int32_t i = 0; i < c->node_count; i++)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             contact_link *guard = &c->link[l];
-            if (!guard->guard || guard->near || !has_passed(c, i, guard - 1, x, facing, hit)) continue;
-            guard->near = guard->flat = true;
-            vec_copy(facing, guard->m);
-            guard->base = behind_mm - vec_dot(facing, hit);
+            if (!guard->guard || guard->near || !is_free(c, i) || !has_passed(c, i, guard - 1, x, facing, hit)) continue;
+            raise_guard(guard, facing, hit, behind_mm);
             count++;
         }
     return count;

@@ -29,13 +29,6 @@ typedef struct contact_link {
     double delta_before, delta_factored, delta_here; /* at the last refresh, in the matrix, at contact_mark */
 } contact_link;
 
-/* At a thin bone a node would turn for ever between its surface and the plane at its way back: in the end that stays. */
-static inline bool contact_plane_stays(const contact_link *link)
-{
-    enum { MOST_TURNS = 6 /* even: the next one is to the plane */ };
-    return link->guard || link->turns > MOST_TURNS;
-}
-
 static inline bool is_lip(const contact_link *link)
 {
     return link->collider >= SEGMENT_COUNT;
