@@ -16,9 +16,9 @@ typedef struct assembly {
     elements el;        /* owned */
     /* elements around each node: source = 4 tet + local node */
     int32_t *node_start, *node_source;
-    /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed), or -1 - k
-     * for coupling k: first the pairs of `average`, then those of assembly_make, which are left to what else
-     * adds to edge_block */
+    /* pairs (u <= v) of nodes in one tet; source = 2 (10 tet + element pair) + (1: block transposed), or -1 -
+     * k for coupling k: first the pairs of `average`, then those of assembly_make, which are left to what
+     * else adds to edge_block */
     int32_t edge_count;
     int32_t *edge_node, *edge_start, *edge_source;
     /* lower triangle by columns, rows ascending */

@@ -1,29 +1,28 @@
 /* contact: tissue against bone, and lip against lip.
  *
  * A bone is a shape, a smooth signed distance d(x) given from outside. A node of area A has the
- * energy  A k C (tau - d)^3  where d < tau, else none; tau = min(activation, gap at rest): tissue that lies on a
- * bone at rest feels nothing until it comes nearer than it was, so a plan that moves nothing moves nothing. No
- * friction; no suction. C is 1 but at the rim of a lip.
+ * energy  A k C (tau - d)^3  where d < tau, else none; tau = min(activation, gap at rest): tissue that lies
+ * on a bone at rest feels nothing until it comes nearer than it was, so a plan that moves nothing moves
+ * nothing. No friction; no suction. C is 1 but at the rim of a lip.
  *
- * Two kinds. held: sliding and paired nodes keep in touch as their attachments say; a sliding node follows the
- * level set of its own bone's distance on which it lay at rest, not the tangent plane there: before each Newton
- * step the plane that holds it is laid anew to the level, each trial step ends on it (retraction), and the
- * Hessian holds the level's bend (minus reaction times Hessian of d). Everything else is kept out of bones. It comes
- * late: loads before the last are solved without, unless that fails; so a node on a free surface can get right through a
- * thin bone unseen. Where its straight way from rest leads through a bone, a guard brings it back: a plane across the
- * way that it should be pushed, just inside the bone's face, which stays to the end (a bone that is bulked up to its back).
- * Not held: sliding nodes may lift off, lips part
+ * Two kinds. held: sliding and paired nodes keep in touch as their attachments say; a sliding node follows
+ * the level set of its own bone's distance on which it lay at rest, not the tangent plane there: before each
+ * Newton step the plane that holds it is laid anew to the level, each trial step ends on it (retraction), and
+ * the Hessian holds the level's bend (minus reaction times Hessian of d). Everything else is kept out of
+ * bones. It comes late: loads before the last are solved without, unless that fails; so a node on a free
+ * surface can get right through a thin bone unseen. Where its straight way from rest leads through a bone, a
+ * guard brings it back: a plane across the way that it should be pushed, just inside the bone's face, which
+ * stays to the end (a bone that is bulked up to its back). Not held: sliding nodes may lift off, lips part
  * and meet.
  *
- * A lip is a signed distance by implicit moving least squares (Kolluri 2008): samples are its nodes with their unit
- * normals n_i and a third a_i of the area around them,
- *   d(x) = sum_i w_i n_i.(x - x_i) / S,  w_i = 5 a_i / (pi h_i^2) (1 - |x - x_i|^2 / h_i^2)^4 within h_i,
- * S = sum_i w_i is 1 on an even plane and falls to 0 off the rim of a surface; C(S) rises smoothly from 0 to 1 there.
- * Only samples that face the node are asked (a lip thinner than h would else have no inside). A node that
- * got deeper than 0.4 h under a lip sees with a wider support, renewed at each Newton step, until it is
- * out. Normals and weights are frozen at each refresh, so the gap is linear in the nodes of both lips: equal and
- * opposite forces, a positive semidefinite stiffness. Folds sharper than h are smoothed away, and depths are told below
- * the smoothed lip.
+ * A lip is a signed distance by implicit moving least squares (Kolluri 2008): samples are its nodes with
+ * their unit normals n_i and a third a_i of the area around them, d(x) = sum_i w_i n_i.(x - x_i) / S,  w_i =
+ * 5 a_i / (pi h_i^2) (1 - |x - x_i|^2 / h_i^2)^4 within h_i, S = sum_i w_i is 1 on an even plane and falls to
+ * 0 off the rim of a surface; C(S) rises smoothly from 0 to 1 there. Only samples that face the node are
+ * asked (a lip thinner than h would else have no inside). A node that got deeper than 0.4 h under a lip sees
+ * with a wider support, renewed at each Newton step, until it is out. Normals and weights are frozen at each
+ * refresh, so the gap is linear in the nodes of both lips: equal and opposite forces, a positive semidefinite
+ * stiffness. Folds sharper than h are smoothed away, and depths are told below the smoothed lip.
  */
 #pragma once
 #include "geometry/rigid.h"
@@ -40,7 +39,8 @@ typedef struct contact_params {
     double pressure_kpa;   /* 0: Young's modulus of the stiffest tissue */
     double depth_limit_mm; /* deeper contacts are stiffened and solved again; refused as a result */
     int max_stiffenings;   /* of all contacts that are too deep, each by 4 */
-    double facing_cos;     /* samples of a lip whose normal is farther from the node's own than this are not asked */
+    double
+        facing_cos; /* samples of a lip whose normal is farther from the node's own than this are not asked */
     double slide_mm;     /* how far lips may slide before their coupling leaves the matrix (not the forces) */
     double free_rel_tol; /* phase A, without contact: tolerance and */
     int free_iterations; /* most iterations; 0: no phase A */
@@ -55,18 +55,18 @@ typedef struct bone_shape {
     const void *context;
     /* Distance in mm with its derivatives (hess[9] may be NULL); HUGE_VAL: farther than it needs to know. */
     double (*distance)(const void *context, const double x[3], double grad[3], double *hess);
-    /* Where the way from x along the unit direction leaves the bone for the last time within reach_mm, and the unit
-     * normal there; false: it does not. */
-    bool (*leave)(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
-                  double normal[3]);
+    /* Where the way from x along the unit direction leaves the bone for the last time within reach_mm, and
+     * the unit normal there; false: it does not. */
+    bool (*leave)(const void *context, const double x[3], const double direction[3], double reach_mm,
+                  double hit[3], double normal[3]);
 } bone_shape;
 
 /* Borrowed until solver_destroy. */
 typedef struct contact_setup {
     contact_params params;
-    bool held; /* sliding and paired nodes keep in touch as without contact, and only bones are met; sliding nodes
-                  stay on the level of their own bone's distance that they lay on at rest, where that bone has a
-                  shape, else on the tangent plane there */
+    bool held; /* sliding and paired nodes keep in touch as without contact, and only bones are met; sliding
+                  nodes stay on the level of their own bone's distance that they lay on at rest, where that
+                  bone has a shape, else on the tangent plane there */
     const bone_shape *shape[SEGMENT_COUNT]; /* at rest, moves with its segment; NULL: cannot be touched */
     int32_t upper_count, lower_count;
     const int32_t *upper_lip, *lower_lip; /* [3*count] triangles of mesh nodes, out of the tissue. A pair
@@ -82,8 +82,8 @@ typedef struct contact_report {
     int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
     int32_t passed;       /* nodes that seem to have gone right through a bone */
     int32_t guards;       /* planes that keep nodes from it, or from turning for ever at a thin bone */
-    int32_t lost;         /* combinations given up: at a thin bone whose side is not clear, or deeper in a lip than the
-                             bones have moved, so taken for behind; not pushed */
+    int32_t lost; /* combinations given up: at a thin bone whose side is not clear, or deeper in a lip than
+                     the bones have moved, so taken for behind; not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
                              is less than 0; at contacts with C >= 1/2 */

@@ -30,8 +30,8 @@ typedef enum element_kind {
     ELEMENT_AVERAGED /* above nu = element_keeps */
 } element_kind;
 extern const double element_average_from;
-/* The part of lambda that makes a material with this nu is never averaged: linear tets bear it, and without it
- * single tets turn inside out in a mesh of a head. */
+/* The part of lambda that makes a material with this nu is never averaged: linear tets bear it, and without
+ * it single tets turn inside out in a mesh of a head. */
 extern const double element_keeps;
 /* Sets averaged_kpa; 0 means linear. Models other than snhlog and snh are linear in AUTO, and AVERAGED is
  * refused (ERR_INPUT). */

@@ -32,8 +32,8 @@ typedef struct material {
     material_model model;
     double young_kpa, poisson;
     double mu_kpa, lambda_kpa;
-    double averaged_kpa;        /* part of lambda_kpa that elements average (element_choose); material_make: 0 */
-    double pressure_kpa;        /* adds pressure_kpa (J - 1) to snhlog and snh; material_make: 0 */
+    double averaged_kpa; /* part of lambda_kpa that elements average (element_choose); material_make: 0 */
+    double pressure_kpa; /* adds pressure_kpa (J - 1) to snhlog and snh; material_make: 0 */
     double target[9], target_j; /* A and its determinant */
 } material;
 

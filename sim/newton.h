@@ -10,10 +10,11 @@
  * that buckles moves on quickly then), at worst the whole of it, and only where that fails too a multiple of
  * the identity is added. Between factorisations the old factor is improved by the last steps (L-BFGS: Nocedal
  * 1980, with the factor as initial matrix) while that is the cheaper way down. Steps are halved until the
- * energy falls enough (Armijo); where the fall is below rounding, until the residual falls. Under contact a step that a few
- * nodes would take too deep is not cut for all: those nodes give way at once, each to where the tissue around it holds. A tet may invert
- * on the way and in the result: the Stable Neo-Hookean energies allow it, so it is counted, not hidden.
- * Several equilibria can exist; the one reached depends on the load path, which is recorded. */
+ * energy falls enough (Armijo); where the fall is below rounding, until the residual falls. Under contact a
+ * step that a few nodes would take too deep is not cut for all: those nodes give way at once, each to where
+ * the tissue around it holds. A tet may invert on the way and in the result: the Stable Neo-Hookean energies
+ * allow it, so it is counted, not hidden. Several equilibria can exist; the one reached depends on the load
+ * path, which is recorded. */
 #pragma once
 #include "sim/assemble.h"
 #include "sim/contact.h"
@@ -73,8 +74,8 @@ typedef struct solve_params {
     int max_halvings;   /* failed loads that are tried again at half the step, in all; 0: none */
     int max_iterations; /* at one load */
     int max_step_cuts;  /* halvings within one line search */
-    double rel_tol;     /* of the residual with the bones moved and the free tissue carried rigidly; the last step
-                           must be small too, below sqrt(rel_tol) of how far the bones move */
+    double rel_tol; /* of the residual with the bones moved and the free tissue carried rigidly; the last step
+                       must be small too, below sqrt(rel_tol) of how far the bones move */
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
@@ -117,9 +118,10 @@ typedef struct equilibrium {
     double factor_flops, memory_peak_mb;
 } equilibrium;
 
-/* With contact that is not held sliding and paired nodes are free, and each load is solved in two phases: A without contact to
- * a loose tolerance (the first load only, and not where rest is the answer), B with it. SOLVED needs the
- * residual below the tolerance right after colliders are renewed, and no penetration beyond depth_limit_mm.
+/* With contact that is not held sliding and paired nodes are free, and each load is solved in two phases: A
+ * without contact to a loose tolerance (the first load only, and not where rest is the answer), B with it.
+ * SOLVED needs the residual below the tolerance right after colliders are renewed, and no penetration beyond
+ * depth_limit_mm.
  *
  * Refuses what elements_make, boundary_make, assembly_make, linear_create and contact's own checks refuse,
  * (ERR_INPUT) parameters out of range and non-finite motions. A solve that fails is not a refusal: it returns

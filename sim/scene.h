@@ -45,8 +45,8 @@ void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SE
 bool scene_check(const equilibrium_problem *problem, const uint8_t *held, const double *x, double *error,
                  err *e) MUST_CHECK;
 
-/* equilibrium_solve with what the plan needs: *out is of the whole mesh, its records and costs are those of all
- * rounds. The caller frees both. */
+/* equilibrium_solve with what the plan needs: *out is of the whole mesh, its records and costs are those of
+ * all rounds. The caller frees both. */
 bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, const solve_params *params,
                  equilibrium *out, scene_report *report, err *e) MUST_CHECK;
 

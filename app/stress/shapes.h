@@ -15,9 +15,11 @@ typedef struct known_bone {
     known_kind kind;
     double at[3]; /* mm */
     double size;  /* mm: radius of the ball, half the plate's thickness, height of cusps and teeth */
-    double round; /* mm: creases of plate, edge and teeth are blended so near to them, else the distance is exact there */
+    double round; /* mm: creases of plate, edge and teeth are blended so near to them, else the distance is
+                     exact there */
 } known_bone;
 
-/* Twice continuously differentiable, its zero the bone's surface, its gradient 1 long but over cusps (the height over
- * them) and at most 1 over teeth (the height by the slope's length). b is borrowed, as its context. */
+/* Twice continuously differentiable, its zero the bone's surface, its gradient 1 long but over cusps (the
+ * height over them) and at most 1 over teeth (the height by the slope's length). b is borrowed, as its
+ * context. */
 bone_shape known_shape(const known_bone *b);

@@ -21,8 +21,8 @@ struct linear {
     linear_stats stats;
 };
 
-/* METIS draws from the C library's rand(), seeded at each ordering: two orderings at once would share the draws, and
- * neither be the same twice. */
+/* METIS draws from the C library's rand(), seeded at each ordering: two orderings at once would share the
+ * draws, and neither be the same twice. */
 static pthread_mutex_t ordering = PTHREAD_MUTEX_INITIALIZER;
 
 static bool check_status(linear *l, const char *what, err *e)

@@ -60,7 +60,8 @@ static double lip_gap(const contact *c, int32_t i, const contact_link *link, con
     return gap;
 }
 
-double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3], double *hess)
+double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3],
+                        double *hess)
 {
     const bone_shape *shape = c->setup.shape[link->collider];
     if (link->flat) {
@@ -153,12 +154,14 @@ static void turn_hessian(const double R[9], const double hess[9], double turned[
         for (int b = 0; b < 3; b++) {
             turned[3 * a + b] = 0;
             for (int p = 0; p < 3; p++)
-                for (int q = 0; q < 3; q++) turned[3 * a + b] += R[3 * a + p] * hess[3 * p + q] * R[3 * b + q];
+                for (int q = 0; q < 3; q++)
+                    turned[3 * a + b] += R[3 * a + p] * hess[3 * p + q] * R[3 * b + q];
         }
 }
 
 /* A node on a curved level feels the curve: minus its reaction times the Hessian of the distance. */
-static void add_level_curvature(const contact *c, int32_t i, const double *x, const double *force, double block[9])
+static void add_level_curvature(const contact *c, int32_t i, const double *x, const double *force,
+                                double block[9])
 {
     const bone_shape *shape = c->setup.shape[c->level_segment[i]];
     double at[3], m[3], hess[9], turned[9];
@@ -172,7 +175,10 @@ static void add_level_curvature(const contact *c, int32_t i, const double *x, co
     for (int k = 0; k < 9; k++) block[k] -= vec_dot(force + v, m) / square * turned[k];
 }
 
-bool contact_is_deep(const contact *c, double delta) { return delta > shallow_depths * c->setup.params.depth_mm; }
+bool contact_is_deep(const contact *c, double delta)
+{
+    return delta > shallow_depths * c->setup.params.depth_mm;
+}
 
 /* Deep contacts bend the energy so much that curvature only misleads: it counts once all are shallow. */
 static bool is_shallow(const contact *c)
@@ -260,7 +266,12 @@ static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, in
 
 void contact_stiffness(contact *c, const double *x, const double *force, bool exact, assembly *a)
 {
-    contact_job job = {.c = c, .x = x, .force = force, .exact = exact, .shallow = is_shallow(c), .block = NEW_ARRAY(double, 9 * (size_t)c->node_count)};
+    contact_job job = {.c = c,
+                       .x = x,
+                       .force = force,
+                       .exact = exact,
+                       .shallow = is_shallow(c),
+                       .block = NEW_ARRAY(double, 9 * (size_t)c->node_count)};
     int32_t *first_edge = NEW_ARRAY(int32_t, (size_t)a->node_count + 1);
     parallel_for(c->node_count, NODE_GRAIN, stiffness_body, &job);
     for (int32_t k = 0; k < a->edge_count; k++) first_edge[a->edge_node[2 * (size_t)k] + 1] = k + 1;

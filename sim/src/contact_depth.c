@@ -11,7 +11,9 @@ bool contact_is_pinched(const contact *c, int32_t i)
 {
     for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
         for (int32_t k = c->link_start[i]; k < l; k++)
-            if (c->link[l].delta > 0 && c->link[k].delta > 0 && c->link[l].collider != c->link[k].collider && vec_dot(c->link[l].force, c->link[k].force) < 0) return true;
+            if (c->link[l].delta > 0 && c->link[k].delta > 0 && c->link[l].collider != c->link[k].collider &&
+                vec_dot(c->link[l].force, c->link[k].force) < 0)
+                return true;
     return false;
 }
 
@@ -29,7 +31,8 @@ bool contact_stiffen(contact *c)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
             if (depth_of(&c->link[l]) > c->setup.params.depth_limit_mm && !contact_is_pinched(c, i)) {
                 c->link[l].stiffening *= stiffening_step;
-                c->link[l].delta_here = c->link[l].delta / sqrt(stiffening_step); /* where the force is what it was */
+                c->link[l].delta_here =
+                    c->link[l].delta / sqrt(stiffening_step); /* where the force is what it was */
                 c->link[l].delta_factored = 0;
                 any = true;
             }

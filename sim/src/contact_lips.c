@@ -62,7 +62,8 @@ bool contact_make_lips(contact *c, const tetmesh *m, err *e)
     const contact_setup *s = &c->setup;
     double deepest = s->params.activation_mm + s->params.depth_limit_mm;
     if ((s->upper_count > 0) != (s->lower_count > 0))
-        return err_set(e, ERR_INPUT, "the %s lip has contact faces, the other has none", s->upper_count ? "upper" : "lower");
+        return err_set(e, ERR_INPUT, "the %s lip has contact faces, the other has none",
+                       s->upper_count ? "upper" : "lower");
     if (!s->upper_count) return true;
     make_lip(c, m, 0, s->upper_lip, s->upper_count);
     make_lip(c, m, 1, s->lower_lip, s->lower_count);
@@ -72,7 +73,8 @@ bool contact_make_lips(contact *c, const tetmesh *m, err *e)
             const double *x = c->cloud[side].x + 3 * (size_t)i, h = c->cloud[side].h[i];
             if (!(h > 2.5 * deepest))
                 return err_set(e, ERR_INPUT,
-                               "a lip is too fine about %.1f %.1f %.1f mm: its support of %.2f mm would not see a contact "
+                               "a lip is too fine about %.1f %.1f %.1f mm: its support of %.2f mm would not "
+                               "see a contact "
                                "%.2f mm deep",
                                x[0], x[1], x[2], h, deepest);
         }

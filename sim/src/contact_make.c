@@ -212,7 +212,8 @@ static void measure_levels(contact *c, const tetmesh *m, const attach_map *a)
         int32_t v = c->node[i];
         const bone_shape *shape = a->kind[v] == NODE_SLIDING ? c->setup.shape[a->segment[v]] : NULL;
         double grad[3], level = HUGE_VAL;
-        if (c->setup.held && shape) level = shape->distance(shape->context, m->xyz + 3 * (size_t)v, grad, NULL);
+        if (c->setup.held && shape)
+            level = shape->distance(shape->context, m->xyz + 3 * (size_t)v, grad, NULL);
         c->level_segment[i] = level < HUGE_VAL ? (int8_t)a->segment[v] : -1;
         c->level_mm[i] = level;
     }

@@ -11,10 +11,12 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool guard; /* no contact: a plane behind which the node must not get, where `near`; of the bone of the link before */
-    bool flat; /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
+    bool guard; /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
+                   link before */
+    bool flat;  /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side
+                 */
     bool faced; /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
-    int turns;            /* of flat, since contact_restart */
+    int turns;  /* of flat, since contact_restart */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
@@ -46,8 +48,8 @@ typedef struct contact {
     int32_t *own_sample;    /* [node_count] number in its own lip's cloud, -1: no lip */
     imls_cloud cloud[2];    /* upper lip, lower lip */
     int32_t *lip_node[2], *lip_tri[2], lip_tri_count[2]; /* mesh numbers of samples; triangles of samples */
-    double motion_reach_mm; /* a node that is deeper in a lip is behind it */
-    const double *rest_xyz; /* [3*mesh nodes] borrowed */
+    double motion_reach_mm;                              /* a node that is deeper in a lip is behind it */
+    const double *rest_xyz;                              /* [3*mesh nodes] borrowed */
     rigid motion[SEGMENT_COUNT], back[SEGMENT_COUNT], guide;
     int32_t link_count, *link_start; /* [node_count + 1] */
     contact_link *link;
@@ -57,7 +59,8 @@ typedef struct contact {
 } contact;
 
 /* attach: as the caller gave it, with sliding and paired nodes. Refuses (ERR_INPUT) parameters out of range,
- * sliding nodes whose segment has no shape, one lip without the other, too fine lips and broken face lists. */
+ * sliding nodes whose segment has no shape, one lip without the other, too fine lips and broken face lists.
+ */
 bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setup *setup, double young_kpa,
                   contact **out, err *e) MUST_CHECK;
 void contact_destroy(contact **c);
@@ -89,20 +92,22 @@ void contact_stiffness(contact *c, const double *x, const double *force, bool ex
 bool contact_is_deep(const contact *c, double delta);
 /* The links of the last contact_energy are those of the iterate from which steps are tried. */
 void contact_mark(contact *c);
-/* Bone contacts of the last contact_energy, at a trial point, whose depth the step did not foresee, new ones above all: adds to z[unknowns]
- * what brings their nodes out to where the tissue around them holds against the contact, of second order in the step. One
- * node of thousands would else cut the steps of all. What was deep before is left to the steps: it is to come out together
- * with the tissue around. Returns the farthest move, mm. */
+/* Bone contacts of the last contact_energy, at a trial point, whose depth the step did not foresee, new ones
+ * above all: adds to z[unknowns] what brings their nodes out to where the tissue around them holds against
+ * the contact, of second order in the step. One node of thousands would else cut the steps of all. What was
+ * deep before is left to the steps: it is to come out together with the tissue around. Returns the farthest
+ * move, mm. */
 double contact_yield(const contact *c, const boundary *b, double *z);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
-/* A shape knows its inside, but of a thin bone not the side from which the node came: where a node at x[3*nodes] would be
- * pushed on the way that it went, its link becomes the plane at its way back (flat). Right through a bone it goes unseen. */
+/* A shape knows its inside, but of a thin bone not the side from which the node came: where a node at
+ * x[3*nodes] would be pushed on the way that it went, its link becomes the plane at its way back (flat).
+ * Right through a bone it goes unseen. */
 void contact_find_side(const contact *c, int32_t i, contact_link *link, const double *x);
 /* Nodes outside a bone at x[3*nodes] that, as it seems, came through it. */
 int32_t contact_passed(const contact *c, const double *x);
-/* held: puts guards before those that hang on no bone, across the way that they should be pushed and just inside the
- * bone's face there, to stay until contact_restart; returns how many are new. */
+/* held: puts guards before those that hang on no bone, across the way that they should be pushed and just
+ * inside the bone's face there, to stay until contact_restart; returns how many are new. */
 int32_t contact_guard(contact *c, const double *x);
 /* Of active gaps between the energies before and after the last refresh, mm. */
 double contact_refresh_change(const contact *c);
@@ -115,7 +120,8 @@ double contact_force(const contact *c);
 /* Of the last contact_energy. */
 contact_report contact_measure(const contact *c);
 
-/* Lips, contact_lips.c. Samples at their nodes, and what they couple; refuses what contact_make does of lips. */
+/* Lips, contact_lips.c. Samples at their nodes, and what they couple; refuses what contact_make does of lips.
+ */
 bool contact_make_lips(contact *c, const tetmesh *m, err *e) MUST_CHECK;
 /* Their samples at x[3*nodes]. */
 void contact_move_lips(contact *c, const double *x);

@@ -9,8 +9,8 @@ void contact_mark(contact *c)
     for (int32_t l = 0; l < c->link_count; l++) c->link[l].delta_here = c->link[l].delta;
 }
 
-/* How far the node has to go out. A Newton step foresaw the force f + f' (delta - delta_here); the node is held by the
- * stiffness k of what is around it: k a = 3 w (delta - a)^2 - foreseen. */
+/* How far the node has to go out. A Newton step foresaw the force f + f' (delta - delta_here); the node is
+ * held by the stiffness k of what is around it: k a = 3 w (delta - a)^2 - foreseen. */
 static double way_out(const contact_link *link, double k)
 {
     double w = vec_norm(link->force) / (3 * link->delta * link->delta), here = link->delta_here;
@@ -23,7 +23,8 @@ static double way_out(const contact_link *link, double k)
 static bool is_unforeseen(const contact *c, const contact_link *link)
 {
     double more = fabs(link->delta - link->delta_here);
-    return !is_lip(link) && link->delta > 0 && more > c->setup.params.depth_mm / 4 && !contact_is_deep(c, link->delta_here);
+    return !is_lip(link) && link->delta > 0 && more > c->setup.params.depth_mm / 4 &&
+           !contact_is_deep(c, link->delta_here);
 }
 
 double contact_yield(const contact *c, const boundary *b, double *z)

@@ -110,11 +110,12 @@ static bool renews_each_time(const contact *c, int iteration)
     return c->setup.held || iteration <= c->setup.params.refresh_iterations;
 }
 
-/* The residual is low, and not because it is a bad measure. Where bones press on tissue that hangs on none of them, the
- * contact forces are what it is measured by. */
+/* The residual is low, and not because it is a bad measure. Where bones press on tissue that hangs on none of
+ * them, the contact forces are what it is measured by. */
 static bool is_solved(descent *d)
 {
-    static const double near = 100; /* tolerances: what rounding does to the elastic forces is asked from here on */
+    static const double near =
+        100; /* tolerances: what rounding does to the elastic forces is asked from here on */
     const contact *c = d->touching ? d->t->touch : NULL;
     if (c) d->tolerance = fmax(fmax(d->asked, contact_force_noise(c, d->x)), d->rel_tol * contact_force(c));
     if (c && d->residual > d->tolerance && d->residual < near * d->tolerance)

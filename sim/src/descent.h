@@ -41,19 +41,19 @@ typedef struct descent {
     /* present iterate */
     double *z, *x, *force, *g;
     double energy, residual, tolerance, rel_tol, energy_noise;
-    double asked;     /* of the residual; tolerance is this, or what contact leaves */
-    double settled;   /* a last step below so much, mm, is small; see descent_run */
-    double last_step; /* longest move of an unknown in the last step, mm; 0: none yet */
+    double asked;           /* of the residual; tolerance is this, or what contact leaves */
+    double settled;         /* a last step below so much, mm, is small; see descent_run */
+    double last_step;       /* longest move of an unknown in the last step, mm; 0: none yet */
     double residual_before; /* of the last iterate */
     /* trial point, direction, work */
     double *z_new, *x_new, *force_new, *g_new, *direction;
     /* L-BFGS memory, newest last */
     double *pair_s[PAIR_LIMIT], *pair_y[PAIR_LIMIT], pair_rho[PAIR_LIMIT];
     int pair_count;
-    bool touching; /* contact counts now */
+    bool touching;         /* contact counts now */
     bool touch_on_the_way; /* held contact counts at all loads, not at the last one only */
-    bool cut;      /* the last step was */
-    bool warm;     /* this load began near an equilibrium with contact */
+    bool cut;              /* the last step was */
+    bool warm;             /* this load began near an equilibrium with contact */
     int64_t cg_at_load;
     double blend;    /* part of the clamped matrix that the last blend needed */
     int blend_tries; /* until the last factor of this load; 0: it is one of the true matrix */
@@ -65,11 +65,12 @@ typedef struct descent {
 void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out);
 void descent_free(descent *d);
 /* Equilibrium at the boundary's present place, from x_start[3*nodes] (all nodes, prescribed ones where they
- * were). free_first: with contact, phase A comes before. warm: x_start is near an equilibrium with contact, which counts
- * from the first guess on. False: refused. *outcome is never SOLVED unless the
- * residual is below the tolerance; d->x is the last iterate. Where flat tets make the first residual huge, a part of it
- * says little: so at load 1 the last step must be small as well, below sqrt(rel_tol) of the bones' move against the tissue.
- * A Newton step converges quadratically, so that this asks for nothing more where the residual is a good measure. */
+ * were). free_first: with contact, phase A comes before. warm: x_start is near an equilibrium with contact,
+ * which counts from the first guess on. False: refused. *outcome is never SOLVED unless the residual is below
+ * the tolerance; d->x is the last iterate. Where flat tets make the first residual huge, a part of it says
+ * little: so at load 1 the last step must be small as well, below sqrt(rel_tol) of the bones' move against
+ * the tissue. A Newton step converges quadratically, so that this asks for nothing more where the residual is
+ * a good measure. */
 bool descent_run(descent *d, double load, double rel_tol, bool free_first, bool warm, const double *x_start,
                  solve_outcome *outcome, err *e) MUST_CHECK;
 
@@ -84,8 +85,8 @@ void point_measure(descent *d);
 /* Adds the present iterate to the records and tells the caller. */
 void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s,
                   int cg_iterations);
-/* Contacts at x, z that are deeper than was foreseen give way; then both are where they get to. Returns the farthest move,
- * mm; see contact_yield. */
+/* Contacts at x, z that are deeper than was foreseen give way; then both are where they get to. Returns the
+ * farthest move, mm; see contact_yield. */
 double point_yield(descent *d, double *x, double *z);
 /* Step length along direction, 0 where none is good; then the accepted point is the present one. */
 double point_line_search(descent *d);
@@ -100,8 +101,8 @@ bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_i
                    err *e) MUST_CHECK;
 
 /* direct.c */
-/* The part of the clamped matrix with which a ladder of blends begins; each rung is twice the one before, four times under
- * contact. */
+/* The part of the clamped matrix with which a ladder of blends begins; each rung is twice the one before,
+ * four times under contact. */
 double direct_first_rung(const descent *d);
 /* Fills the assembly's matrix at x, with contact where it counts. */
 void direct_fill(descent *d, const double *x, projection how);

@@ -8,7 +8,10 @@
 static const double least_part = 1.0 / 64; /* below, the true matrix itself is tried */
 
 /* Each rung of the ladder is so many times the one before. */
-static double rung(const descent *d) { return d->touching ? 4 : 2; }
+static double rung(const descent *d)
+{
+    return d->touching ? 4 : 2;
+}
 
 double direct_first_rung(const descent *d)
 {
@@ -49,8 +52,8 @@ static bool factorise_blend(descent *d, const double *true_value, double part, b
     return fine;
 }
 
-/* What the last matrix needed tells where to begin: there, where it took several tries, and lower where the first was
- * enough, down to the true matrix. */
+/* What the last matrix needed tells where to begin: there, where it took several tries, and lower where the
+ * first was enough, down to the true matrix. */
 static double first_part(const descent *d)
 {
     if (!d->touching || d->blend_tries == 0) return 0;
@@ -168,7 +171,8 @@ bool direct_reusable(const descent *d)
      * energy with forces (500 per tet) */
     double factor = 0.07 * s.factor_flops + 2500.0 * d->t->a.tet_count;
     double step = 1.5 * (double)s.factor_entries + 500.0 * d->t->a.tet_count;
-    if (d->touching && d->since_factor > factor / step + 4) return false; /* they have cost as much as a factorisation */
+    if (d->touching && d->since_factor > factor / step + 4)
+        return false; /* they have cost as much as a factorisation */
     double rate = log(d->residual_at_factor / d->residual) / d->since_factor;
     return rate > 0 && log(d->residual / d->tolerance) / rate < factor / step + 4;
 }

@@ -213,7 +213,9 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         }
         q.loads++;
         double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
-        bool loose = t->touch && (t->touch->setup.held && !d.touch_on_the_way ? target >= 1 : q.load_reached == 0) && !from_guess;
+        bool loose = t->touch &&
+                     (t->touch->setup.held && !d.touch_on_the_way ? target >= 1 : q.load_reached == 0) &&
+                     !from_guess;
         ok = descent_run(&d, target, rel_tol, loose, from_guess && t->touch, start, &outcome, e);
         if (!ok || outcome == STOPPED_INTERRUPTED) break;
         if (outcome == SOLVED) {

@@ -210,7 +210,8 @@ int material_negative_modes(const material_terms *t, const double F[9], double v
                            2 * t->psi_ij * (s[i] * cof[j] + s[j] * cof[i]);
             A[3 * i + j] += i == j ? 2 * t->psi_i : t->psi_j * s[3 - i - j];
         }
-    if (A[0] > 0 && A[0] * A[4] > A[1] * A[1] && mat_det(A) > 0) return count; /* positive definite: none among these */
+    if (A[0] > 0 && A[0] * A[4] > A[1] * A[1] && mat_det(A) > 0)
+        return count; /* positive definite: none among these */
     symmetric_eigen(3, A, w, Q);
     for (int k = 0; k < 3; k++) {
         if (!(w[k] < 0)) continue;

@@ -100,8 +100,8 @@ static void set_trial(descent *d, double step)
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->z_new[i] = d->z[i] + step * d->direction[i];
 }
 
-/* The trial point after this fraction of the direction; contacts give way where it would else be too high, and from a
- * near solution wherever that is lower. False: it is no good. */
+/* The trial point after this fraction of the direction; contacts give way where it would else be too high,
+ * and from a near solution wherever that is lower. False: it is no good. */
 static bool try_step(descent *d, double step, double slope, double *energy, double *yielded)
 {
     set_trial(d, step);
