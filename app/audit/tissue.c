@@ -215,7 +215,7 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 
 /* ---- */
 
-/* Solves what predict --contact off --full solves: contact with bone would take ten times as long. What needs the face (incisor show, lower face) only cautions and is left
+/* Solves what predict --contact off --full solves: contact with bone would take five times as long. What needs the face (incisor show, lower face) only cautions and is left
  * to predict. */
 static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
 {
