@@ -14,8 +14,13 @@ mkdir -p "$2"
 work=$(realpath "$2") here=$(cd "$(dirname "$0")" && pwd)
 shift 2
 if [ $# -eq 0 ]; then
-    [ -d "$work/class3" ] || { "$gnathos" new "$work/class3.part" --norm --class 3 -q && cp "$here/../cases/class3/plan.json" "$work/class3.part" &&
-        mv "$work/class3.part" "$work/class3"; }
+    if [ ! -d "$work/class3" ]; then # the folder names the case
+        mkdir -p "$work/part"
+        "$gnathos" new "$work/part/class3" --norm --class 3 -q
+        cp "$here/../cases/class3/plan.json" "$work/part/class3"
+        mv "$work/part/class3" "$work/class3"
+        rmdir "$work/part"
+    fi
     set -- "$work/class3"
     data=${GNATHOS_DATA:-$here/../../shared/data}/phantom_head_ct
     if [ -d "$data" ]; then
