@@ -251,7 +251,6 @@ static void check_above(check *k)
     double deepest = -HUGE_VAL, limit = k->s->contact.params.depth_limit_mm + k->c->slack_mm;
     for (int32_t v = 0; v < k->b.node_count; v++)
         if (k->touching[v]) deepest = fmax(deepest, stress_depth(&k->s->bone, k->q->xyz + 3 * (size_t)v));
-    if (k->q->contact.passed) return; /* right through a thin bone, and it says so */
     if (deepest > limit) fail(k, "a node is %.3g mm below the surface, %.3g allowed", deepest, limit);
 }
 
