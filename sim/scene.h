@@ -8,7 +8,7 @@
  * order. Where that is more than the tolerance, those nodes are freed and the plan is solved again from
  * there. */
 #pragma once
-#include "sim/newton.h"
+#include "sim/equilibrium.h"
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -1,6 +1,6 @@
 /* One case, solved and judged. */
 #include "app/stress/stress.h"
-#include "app/child.h"
+#include "app/planner/store/child.h"
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -101,12 +101,12 @@ static void solve_in_child(void *context, void *result)
     memcpy(result, &own, sizeof own);
 }
 
-stress_result stress_run(const stress_case *c, double patience)
+stress_result stress_run(const stress_case *c, double patience, const task *watch)
 {
     double limit = patience * (c->limit_s > 0 ? c->limit_s : 60);
     stress_result r = nothing_known();
     child_use use;
-    child_end end = child_run(solve_in_child, (void *)c, &r, sizeof r, limit, &use);
+    child_end end = child_run(watch, solve_in_child, (void *)c, &r, sizeof r, limit, &use);
     if (end != CHILD_DONE) {
         r.kind = end == CHILD_CRASHED ? STRESS_CRASHED : STRESS_TIMED_OUT;
         r.seconds = use.wall_s;

@@ -6,7 +6,7 @@
 #pragma once
 #include "app/stress/shapes.h"
 #include "geometry/json_file.h"
-#include "sim/newton.h"
+#include "sim/equilibrium.h"
 #include <stdio.h>
 
 typedef struct stress_case stress_case;
@@ -118,7 +118,7 @@ equilibrium_problem stress_problem(const stress_scene *s);
 /* Solves and checks in this process. */
 stress_result stress_solve(const stress_case *c);
 /* The same in a child with the time limit of the case times `patience` (ten times as much by the wall). */
-stress_result stress_run(const stress_case *c, double patience);
+stress_result stress_run(const stress_case *c, double patience, const task *watch);
 /* Fills wrong, checked_mn and correction_mm from the positions in q and nothing else the solver says. */
 void stress_verify(const stress_case *c, const stress_scene *s, const equilibrium *q, stress_result *r);
 

@@ -1,6 +1,6 @@
 /* The results for people and for programs. */
 #include "app/stress/stress.h"
-#include "app/json_table.h"
+#include "app/planner/store/json_table.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <math.h>

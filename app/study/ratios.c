@@ -1,7 +1,7 @@
 /* gnathos study --ratios: every standard move as predict solves it, and on other meshes, beside published
  * windows. */
 #include "app/study/measures.h"
-#include "app/json_table.h"
+#include "app/planner/store/json_table.h"
 #include "geometry/write_whole.h"
 #include <math.h>
 #include <string.h>
@@ -139,7 +139,7 @@ static bool write(const answer *a, const study_task *t, err *e)
 }
 
 /* The answers of one move; on each mesh from the journal, else solved now. */
-static bool run_move(study_task *t, int move, const prepared *p, const command_options *common, answer *a,
+static bool run_move(study_task *t, int move, const prepared *p, answer *a,
                      err *e)
 {
     const standard_move *m = &study_moves[move];
@@ -156,9 +156,9 @@ static bool run_move(study_task *t, int move, const prepared *p, const command_o
         bool fresh;
         char stage[160];
         snprintf(stage, sizeof stage, "%s, %s", m->name, runs[k].name);
-        command_progress_at(common, stage, (double)(RUNS * move + k) / (RUNS * study_move_count));
+        task_progress(t->watch, stage, (double)(RUNS * move + k) / (RUNS * study_move_count));
         if (!reason[0] && !study_get(t, &runs[k], &run, &fresh, e)) return false;
-        if (!reason[0] && !run.result.solved) command_note(common, "%s: %s", stage, run.result.text);
+        if (!reason[0] && !run.result.solved) task_note(t->watch, "%s: %s", stage, run.result.text);
         for (int i = 0; i < STUDY_MEASURES; i++) {
             if (a[i].m->move != move) continue;
             a[i].value[k] = study_measure_value(a[i].m, p, &run);
@@ -176,13 +176,13 @@ static bool run_move(study_task *t, int move, const prepared *p, const command_o
     return true;
 }
 
-bool study_ratios(study_task *t, prepared *p, const command_options *common, err *e)
+bool study_ratios(study_task *t, prepared *p, FILE *out, json_t **record, err *e)
 {
     answer a[STUDY_MEASURES] = {0};
     for (int i = 0; i < STUDY_MEASURES; i++) a[i].m = &study_measures[i];
     study_add_lips(p);
     for (int move = 0; move < study_move_count; move++)
-        if (!run_move(t, move, p, common, a, e)) return false;
+        if (!run_move(t, move, p, a, e)) return false;
     for (int i = 0; i < STUDY_MEASURES; i++) {
         judge(&a[i]);
         if (a[i].verdict == NOT_KNOWN) continue;
@@ -190,9 +190,9 @@ bool study_ratios(study_task *t, prepared *p, const command_options *common, err
         snprintf(a[i].why, sizeof a[i].why, "%s", stands_in ? "Pn stands for Cm" : "");
     }
     if (!write(a, t, e)) return false;
-    if (common->json)
-        command_print_json(table_json(a, t->patient->name), "study_ratios");
+    if (record)
+        *record = table_json(a, t->patient->name);
     else
-        print(a, t->patient->name, stdout);
+        print(a, t->patient->name, out);
     return true;
 }

@@ -1,6 +1,6 @@
 /* The study as a table: Markdown, CSV, JSON. */
 #include "app/study/study.h"
-#include "app/json_table.h"
+#include "app/planner/store/json_table.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <math.h>

@@ -1,8 +1,8 @@
 /* One rung, solved in a child and kept. */
 #include "app/study/measures.h"
-#include "app/child.h"
-#include "app/pack_file.h"
-#include "app/plan_tissue.h"
+#include "app/planner/store/child.h"
+#include "app/planner/store/pack_file.h"
+#include "app/planner/predict/plan_tissue.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/tissue_refine.h"
@@ -63,7 +63,7 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
     c.tissue.element_mm *= r->coarsening;
     c.tissue.coarse_mm *= r->coarsening;
     double begin = now_s(CLOCK_MONOTONIC);
-    if (!prepared_get(&c, r->coarsening == 1 ? t->cache : own, NULL, NULL, p, e)) return false;
+    if (!prepared_get(&c, r->coarsening == 1 ? t->cache : own, NULL, p, e)) return false;
     *meshing_s = p->reused ? 0 : now_s(CLOCK_MONOTONIC) - begin;
     for (int k = 0; k < r->refined; k++) {
         tissue fine;
@@ -190,7 +190,7 @@ static void work(void *context, void *result)
     } else if (own.ok) {
         describe(&p, &q, &r);
     }
-    if (own.ok && app_interrupted()) own.ok = err_set(&own.e, ERR_INTERRUPTED, "interrupted");
+    if (own.ok && task_interrupted(j->task->watch)) own.ok = err_set(&own.e, ERR_INTERRUPTED, "interrupted");
     if (own.ok) study_add_lips(&p);
     own.ok = own.ok && keep(j, &p, &q, &r, &own.e);
     equilibrium_free(&q);
@@ -247,9 +247,9 @@ bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool
     job j = {t, rung, path};
     reply r = {0};
     child_use use;
-    child_end end = child_run(work, &j, &r, sizeof r, limit_s, &use);
+    child_end end = child_run(t->watch, work, &j, &r, sizeof r, limit_s, &use);
     *fresh = true;
-    if (end == CHILD_INTERRUPTED || app_interrupted())
+    if (end == CHILD_INTERRUPTED || task_interrupted(t->watch))
         return err_set(e, ERR_INTERRUPTED,
                        "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
     if (end != CHILD_DONE) { /* not kept: another time it may come through */

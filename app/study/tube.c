@@ -3,7 +3,7 @@
  * equations d(R P_rr)/dR = P_tt + R P_tr g',   R r P_tr = const.   at  F = [r' 0 0; r g' r/R 0; 0 0 1] for
  * the place r(R) and the turn g(R) of each shell, solved on 1920 shells. */
 #include "app/study/study.h"
-#include "app/child.h"
+#include "app/planner/store/child.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
@@ -217,7 +217,7 @@ bool study_tubes(const study_task *task, study_tube out[STUDY_TUBES], err *e)
             .cells = 4 << i % 3, .average = i / 3 % 2, .poisson = poisson[i / 6], .error_mm = (double)NAN};
         job j = {task, &row};
         child_use use;
-        if (child_run(work, &j, &row, sizeof row, 600, &use) == CHILD_INTERRUPTED)
+        if (child_run(task->watch, work, &j, &row, sizeof row, 600, &use) == CHILD_INTERRUPTED)
             return err_set(e, ERR_INTERRUPTED,
                            "interrupted; what is done is kept in %s, and the same command goes on",
                            task->folder);

@@ -1,4 +1,4 @@
-#include "geometry/src/read_mesh.h"
+#include "geometry/src/files/read_mesh.h"
 #include "geometry/cgal/guard.hpp"
 #include "geometry/mem.h"
 #include <CGAL/IO/Color.h>

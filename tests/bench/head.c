@@ -2,10 +2,10 @@
  *   head CASE PLAN [threads, default 1]
  * Ways: off (no contact), bones (predict's default), each cold, and bones-replan: every moved segment 1 mm further,
  * from the solution before. All tissue is solved for, to 1e-6; the prepared case's bones are made ready beforehand. */
-#include "app/plan_contact.h"
-#include "app/plan_file.h"
-#include "app/plan_moves.h"
-#include "app/plan_tissue.h"
+#include "app/planner/predict/plan_contact.h"
+#include "app/planner/plan/plan_file.h"
+#include "app/planner/plan/plan_moves.h"
+#include "app/planner/predict/plan_tissue.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
 #include "tests/bench/yardstick.h"
@@ -73,7 +73,7 @@ int main(int argc, char **argv)
     w.params = solve_params_default();
     w.params.rel_tol = 1e-6;
     w.params.blas_threads = threads;
-    if (!case_file_load(argv[1], &w.c, &e) || !prepared_get(&w.c, NULL, NULL, NULL, &w.p, &e) ||
+    if (!case_file_load(argv[1], &w.c, &e) || !prepared_get(&w.c, NULL, NULL, &w.p, &e) ||
         !plan_moves_load(argv[2], &w.c, &w.p.points, &w.plan, &w.moves, &e) || !bone_shapes_make(&w.p, &w.bones, &e) ||
         !plan_tissue_make(&w.c, &w.p, w.moves.move, false, &w.flesh, &e))
         give_up(&e);

@@ -1,7 +1,7 @@
 /* bench_judge CASE [COUNT [FILE]]: plans judged per second on a prepared case, at random within the limits of
  * moves. Prints how many come out at each level and a sum over the bits of all values and places, so that
  * builds can be compared; FILE gets every value. */
-#include "app/judge.h"
+#include "app/planner/judge/judge.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include <stdint.h>
@@ -67,7 +67,7 @@ int main(int argc, char **argv)
     judge *j;
     int count = argc > 2 ? atoi(argv[2]) : 200;
     if (argc < 2 || count < 1 || !case_file_load(argv[1], &c, &e) ||
-        !prepared_get(&c, NULL, NULL, NULL, &p, &e)) {
+        !prepared_get(&c, NULL, NULL, &p, &e)) {
         fprintf(stderr, "bench_judge CASE [COUNT]: %s\n", e.text);
         return 1;
     }

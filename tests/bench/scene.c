@@ -4,7 +4,7 @@
  * solve; ratio is total_s over that of the full solve. */
 #include "geometry/mem.h"
 #include "sim/scene.h"
-#include "sim/src/clock.h"
+#include "geometry/clock.h"
 #include "tests/physics/block.h"
 #include <stdio.h>
 #include <stdlib.h>

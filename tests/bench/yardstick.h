@@ -2,8 +2,8 @@
  * matrix, and how time is taken. */
 #pragma once
 #include "geometry/mem.h"
-#include "sim/src/clock.h"
-#include "sim/src/descent.h"
+#include "geometry/clock.h"
+#include "sim/src/solve/descent.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>

@@ -15,12 +15,12 @@ plant() { # FILE INCLUDE
         missed=1
     fi
 }
-plant geometry/a.c '"sim/newton.h"'
+plant geometry/a.c '"sim/equilibrium.h"'
 plant geometry/src/a.c '"render/camera.h"'
 plant sim/a.h '"render/camera.h"'
-plant render/src/a.c '"sim/newton.h"'
-plant render/a.c '"app/fields.h"'
-plant app/a.c '"geometry/src/fcsv.h"'
+plant render/src/a.c '"sim/equilibrium.h"'
+plant render/a.c '"app/planner/store/fields.h"'
+plant app/a.c '"geometry/src/files/fcsv.h"'
 plant geometry/src/a.c '<CGAL/Surface_mesh.h>'
 plant app/a.c '"geometry/cgal/guard.hpp"'
 plant geometry/a.h '<jansson.h>'
@@ -29,7 +29,7 @@ plant app/a.c '<suitesparse/cholmod.h>'
 plant sim/src/a.c '<omp.h>'
 plant app/a.c '<png.h>'
 plant geometry/src/a.c '<assimp/scene.h>'
-plant cases/norm_head/a.c '"app/fields.h"'
+plant cases/norm_head/a.c '"app/planner/store/fields.h"'
 mkdir -p "$work/good/app" && echo '#include "geometry/json_file.h"' >"$work/good/app/a.c"
 sh "$layering" "$work/good" >/dev/null || { echo "refused a good tree"; missed=1; }
 exit $missed

@@ -1,7 +1,7 @@
 /* How bones carry the tissue: tied, sliding and paired nodes, rigid motions, refusals. */
 #include "tests/check.h"
 #include "sim/motion.h"
-#include "sim/newton.h"
+#include "sim/equilibrium.h"
 #include "tests/physics/evidence.h"
 #include "tests/physics/lips.h"
 #include <string.h>

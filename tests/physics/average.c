@@ -2,7 +2,7 @@
  * what they do about locking. */
 #include "tests/check.h"
 #include "geometry/parallel.h"
-#include "sim/src/descent.h"
+#include "sim/src/solve/descent.h"
 #include "tests/physics/block.h"
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* Every material against stresses written down a second time, from the principal stretches; a pulled bar; and
  * a thick sphere whose inner wall is pushed outwards, against the radial equation. */
 #include "tests/check.h"
-#include "sim/newton.h"
-#include "sim/src/descent.h"
+#include "sim/equilibrium.h"
+#include "sim/src/solve/descent.h"
 #include "tests/physics/block.h"
 #include "tests/physics/evidence.h"
 #include <string.h>

@@ -1,6 +1,6 @@
 /* A body that lies on bone: pressed, dragged, lifted off, pushed through. */
 #include "tests/check.h"
-#include "sim/src/contact_state.h"
+#include "sim/src/contact/contact_state.h"
 #include "tests/physics/evidence.h"
 #include "tests/physics/touching.h"
 

@@ -1,7 +1,7 @@
 /* What holds for a body on bone and for lips alike. */
 #include "tests/check.h"
 #include "geometry/parallel.h"
-#include "sim/src/contact_state.h"
+#include "sim/src/contact/contact_state.h"
 #include "tests/physics/touching.h"
 
 static void a_plan_that_moves_nothing_moves_nothing(void **state)

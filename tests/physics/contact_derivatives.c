@@ -1,6 +1,6 @@
 /* Derivatives of distances and of the energy of contact, by differences. */
 #include "tests/check.h"
-#include "sim/src/contact_state.h"
+#include "sim/src/contact/contact_state.h"
 #include "tests/physics/touching.h"
 
 /* Which tests and the stress suite lean on. */

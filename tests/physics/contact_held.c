@@ -2,7 +2,7 @@
 #include "tests/check.h"
 #include "app/stress/shapes.h"
 #include "geometry/parallel.h"
-#include "sim/src/contact_state.h"
+#include "sim/src/contact/contact_state.h"
 #include "tests/physics/setting.h"
 #include <string.h>
 

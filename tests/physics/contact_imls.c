@@ -2,7 +2,7 @@
 #include "tests/check.h"
 #include "geometry/mem.h"
 #include "geometry/rigid.h"
-#include "sim/src/contact_imls.h"
+#include "sim/src/contact/contact_imls.h"
 #include "tests/physics/block.h"
 #include <math.h>
 #include <stdlib.h>

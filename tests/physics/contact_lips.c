@@ -1,6 +1,6 @@
 /* Lips that press each other, and part. */
 #include "tests/check.h"
-#include "sim/src/contact_state.h"
+#include "sim/src/contact/contact_state.h"
 #include "tests/physics/touching.h"
 
 static void lips_press_each_other_and_part(void **state)

@@ -1,6 +1,6 @@
 /* The slab of the cross_solver data, solved by FEBio, dolfinx, Vega and CalculiX with the same energies. */
 #include "tests/check.h"
-#include "sim/newton.h"
+#include "sim/equilibrium.h"
 #include "tests/physics/block.h"
 #include "tests/physics/evidence.h"
 #include <string.h>

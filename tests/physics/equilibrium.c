@@ -1,7 +1,7 @@
 /* The whole solve: against theory and against itself. */
 #include "tests/check.h"
 #include "geometry/parallel.h"
-#include "sim/src/descent.h"
+#include "sim/src/solve/descent.h"
 #include "tests/physics/evidence.h"
 #include "tests/physics/setting.h"
 #include <string.h>

@@ -2,8 +2,8 @@
 #include "tests/check.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
-#include "sim/src/cg.h"
-#include "sim/src/descent.h"
+#include "sim/src/linear/cg.h"
+#include "sim/src/solve/descent.h"
 #include "tests/physics/setting.h"
 #include <string.h>
 

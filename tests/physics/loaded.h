@@ -2,7 +2,7 @@
  * the assembly's own forces and matrix. */
 #pragma once
 #include "tests/check.h"
-#include "sim/src/descent.h"
+#include "sim/src/solve/descent.h"
 #include "tests/physics/block.h"
 
 /* Squared residual of the unknowns at x, in g. */

@@ -1,6 +1,6 @@
 #include "tests/check.h"
 #include "sim/element.h"
-#include "sim/src/svd3.h"
+#include "sim/src/elastic/svd3.h"
 #include "geometry/rigid.h"
 #include "tests/physics/block.h"
 #include "tests/physics/evidence.h"

@@ -1,7 +1,7 @@
 /* setting: bodies, bones and materials ready to be solved. */
 #pragma once
 #include "tests/check.h"
-#include "sim/newton.h"
+#include "sim/equilibrium.h"
 #include "tests/physics/lips.h"
 
 static inline region_material tissue_material(material_model model, double young_kpa, double poisson)

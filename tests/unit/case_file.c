@@ -1,6 +1,6 @@
 /* Reading cases; each refusal with its message is under tests/cli. */
 #include "tests/check.h"
-#include "app/case_file.h"
+#include "app/planner/patient/case_file.h"
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 /* Sets whose bounds are known in closed form; one step is 1/32 mm, so bounds are found to 0.05 mm. */
 #include "tests/check.h"
-#include "app/audit/feasible_line.h"
-#include "app/audit/feasible_map.h"
+#include "app/planner/bounds/feasible_line.h"
+#include "app/planner/bounds/feasible_map.h"
 #include "geometry/parallel.h"
 #include <string.h>
 

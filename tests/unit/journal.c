@@ -1,5 +1,5 @@
 #include "tests/check.h"
-#include "app/journal.h"
+#include "app/planner/store/journal.h"
 #include "geometry/mem.h"
 #include <string.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 /* Plans judged on a head of blocks, where every bound is known: the right limit decides, within 0.05 mm. */
 #include "tests/check.h"
 #include "tests/unit/bodies.h"
-#include "app/judge.h"
+#include "app/planner/judge/judge.h"
 #include "geometry/vec.h"
 
 static case_file patient;

@@ -1,6 +1,6 @@
 /* The table of moves says what the plan said. */
 #include "tests/check.h"
-#include "app/movements.h"
+#include "app/planner/plan/movements.h"
 #include "geometry/vec.h"
 
 static const head_frame straight = {.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}};

@@ -1,5 +1,5 @@
 #include "tests/check.h"
-#include "app/output_dir.h"
+#include "app/planner/store/output_dir.h"
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>

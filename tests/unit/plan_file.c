@@ -1,6 +1,6 @@
 /* From the words of a plan to rigid moves; each refusal with its message is under tests/cli. */
 #include "tests/check.h"
-#include "app/plan_moves.h"
+#include "app/planner/plan/plan_moves.h"
 #include "geometry/frame.h"
 #include "geometry/transform_file.h"
 #include "geometry/vec.h"

@@ -1,5 +1,5 @@
 #include "tests/check.h"
-#include "app/suggest.h"
+#include "app/planner/store/suggest.h"
 
 static const char *const names[] = {"check", "prepare", "predict", "maxilla_advance_mm",
                                     "maxilla_impaction_mm"};

@@ -1,0 +1,185 @@
+/* gnathos audit CASE: how far may each bone be moved, and what stops it? */
+#include "app/cli/audit_space.h"
+#include "app/planner/bounds/write.h"
+#include "geometry/mem.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The number of a control, taken into the settings where it is new. */
+static bool take_control(const char *name, const case_file *c, audit_settings *s, int *number, err *e)
+{
+    control x;
+    if (!control_find(name, c, &x, e)) return false;
+    for (*number = 0; *number < s->control_count; ++*number)
+        if (!strcmp(s->control[*number].name, name)) return true;
+    if (s->control_count == SAMPLE_AXES_MAX) return err_set(e, ERR_USAGE, "more than %d controls", SAMPLE_AXES_MAX);
+    s->control[s->control_count++] = x;
+    return true;
+}
+
+static void add_request(audit_settings *s, const audit_request *r)
+{
+    for (int i = 0; i < s->request_count; i++)
+        if (!memcmp(&s->request[i], r, sizeof *r)) return;
+    s->request[s->request_count++] = *r;
+}
+
+static bool take_word(const char *word, int axes, const case_file *c, audit_settings *s, err *e)
+{
+    static const char *const option[] = {"--line", "--pair", "--box"};
+    static const char *const wanted[] = {"one control", "two controls with a comma between them",
+                                         "three controls with commas between them"};
+    char *copy = mem_text(word), *rest = NULL;
+    audit_request r = {0};
+    bool ok = true;
+    for (char *name = strtok_r(copy, ",", &rest); ok && name; name = strtok_r(NULL, ",", &rest)) {
+        int k;
+        ok = r.axis_count < axes || err_set(e, ERR_USAGE, "%s %s: must name %s", option[axes - 1], word, wanted[axes - 1]);
+        ok = ok && take_control(name, c, s, &k, e);
+        for (int i = 0; ok && i < r.axis_count; i++)
+            if (r.axis[i] == k) ok = err_set(e, ERR_USAGE, "%s %s: names %s twice", option[axes - 1], word, name);
+        if (ok) r.axis[r.axis_count++] = k;
+    }
+    if (ok && r.axis_count < axes)
+        ok = err_set(e, ERR_USAGE, "%s %s: must name %s", option[axes - 1], word, wanted[axes - 1]);
+    free(copy);
+    for (int k = 0; ok && k < axes; k++) add_request(s, &(audit_request){1, {r.axis[k]}});
+    if (ok) add_request(s, &r);
+    return ok;
+}
+
+static bool take_default(const case_file *c, audit_settings *s, err *e)
+{
+    static const struct {
+        const char *word;
+        int axes;
+        segment_id needs[2];
+    } all[] = {{"maxilla_advance_mm", 1, {SEGMENT_MAXILLA, SEGMENT_MAXILLA}},
+               {"maxilla_impaction_mm", 1, {SEGMENT_MAXILLA, SEGMENT_MAXILLA}},
+               {"mandible_advance_mm", 1, {SEGMENT_DISTAL, SEGMENT_DISTAL}},
+               {"chin_advance_mm", 1, {SEGMENT_CHIN, SEGMENT_CHIN}},
+               {"maxilla_advance_mm,maxilla_impaction_mm", 2, {SEGMENT_MAXILLA, SEGMENT_MAXILLA}},
+               {"maxilla_advance_mm,mandible_advance_mm", 2, {SEGMENT_MAXILLA, SEGMENT_DISTAL}},
+               {"maxilla_impaction_mm,mandible_advance_mm", 2, {SEGMENT_MAXILLA, SEGMENT_DISTAL}},
+               {"mandible_advance_mm,chin_advance_mm", 2, {SEGMENT_DISTAL, SEGMENT_CHIN}},
+               {"maxilla_advance_mm,maxilla_impaction_mm,mandible_advance_mm", 3, {SEGMENT_MAXILLA, SEGMENT_DISTAL}}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (case_file_frees(c, all[i].needs[0]) && case_file_frees(c, all[i].needs[1]) &&
+            !take_word(all[i].word, all[i].axes, c, s, e))
+            return false;
+    return s->request_count > 0 || err_at(e, ERR_INPUT, c->path, 0, NULL, "cuts no bone, so that nothing can be moved");
+}
+
+static void show_points(int64_t done, int64_t expected, double left_s, void *context)
+{
+    char stage[96];
+    snprintf(stage, sizeof stage, left_s < 90 ? "judging bones: %lld points, %.0f s left" : "judging bones: %lld points, %.0f min left",
+             (long long)done, left_s < 90 ? left_s : left_s / 60);
+    command_progress_at(context, stage, (double)done / (double)expected);
+}
+
+static void show_solves(int round, int done, int count, void *context)
+{
+    char stage[96];
+    snprintf(stage, sizeof stage, "solving soft tissue: round %d, %d of %d points", round, done, count);
+    command_progress_at(context, stage, -1);
+}
+
+static bool was_interrupted(void *context)
+{
+    (void)context;
+    return command_interrupted();
+}
+
+static bool write_all(const audit_space_options *in, const audit *a, err *e)
+{
+    output_dir dir = {0};
+    if (!output_dir_open(in->out, in->force, &dir, e)) return false;
+    bool ok = audit_write_files(a, &dir, e);
+#if GNATHOS_WITH_RENDER
+    if (ok && !in->no_pictures) ok = audit_write_pictures(a, &dir, e);
+#endif
+    if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
+    ok = ok && output_dir_close(&dir, e);
+    output_dir_abandon(&dir);
+    return ok;
+}
+
+static bool run(const audit_space_options *in, audit *a, err *e)
+{
+    char key[HASH_TEXT_SIZE];
+    journal j;
+    size_t size = strlen(in->out) + 16;
+    char *path = NEW_ARRAY(char, size);
+    snprintf(path, size, "%s", in->out);
+    for (size_t n = strlen(path); n > 1 && path[n - 1] == '/'; n--) path[n - 1] = 0;
+    strcat(path, ".journal");
+    audit_key(a, key);
+    bool ok = journal_open(path, key, in->force, audit_read_record, a, &j, e);
+    if (ok) {
+        if (j.record_count)
+            command_note(&in->common, "%s: goes on after %lld finished points and solves", path, (long long)j.record_count);
+        a->progress = show_points;
+        a->solved = show_solves;
+        a->interrupted = was_interrupted;
+        a->context = (void *)&in->common;
+        ok = audit_bones(a, &j, e) && (!a->settings.tissue || audit_tissue(a, &j, e));
+        sample_set_sort(&a->points);
+        tissue_set_sort(&a->tissue);
+        ok = ok && write_all(in, a, e);
+        if (ok) journal_remove(&j);
+        else if (e->code == ERR_INTERRUPTED)
+            command_note(&in->common, "%s keeps %lld finished points and solves; the same command goes on from there", path,
+                         (long long)j.record_count);
+        journal_close(&j);
+    }
+    free(path);
+    return ok;
+}
+
+static bool print(const audit_space_options *in, const audit *a, err *e)
+{
+    if (!in->common.json) {
+        if (!audit_print(a, e)) return false;
+        printf("Results in %s\n", in->out);
+        return true;
+    }
+    json_t *record;
+    if (!audit_json(a, &record, e)) return false;
+    command_print_json(record, "audit");
+    return true;
+}
+
+int command_audit_space(const audit_space_options *in)
+{
+    err e = {0};
+    case_file c;
+    landmarks points = {0};
+    plan_file plan;
+    plan_moves moves;
+    prepared p = {0};
+    const task watch = command_task(&in->common);
+    audit a = {0};
+    output_dir dir = {0};
+    issue_list issues = {0};
+    audit_settings settings = {.spacing = in->spacing, .tolerance = in->tolerance, .tissue = !in->geometry_only};
+    /* what is wrong in the words is told before the minutes of preparation */
+    bool ok = case_file_load(in->case_path, &c, &e) && landmarks_read(c.landmarks, &points, NULL, &e);
+    for (int i = 0; ok && i < in->word_count; i++) ok = take_word(in->word[i], in->axis_count[i], &c, &settings, &e);
+    if (ok && !in->word_count) ok = take_default(&c, &settings, &e);
+    if (ok && in->around) {
+        ok = plan_file_read(in->around, &c, &plan, &issues) && plan_moves_set(&plan, &c, &points, &moves, &issues);
+        ok = issue_none_is_error(&issues, &e) && ok;
+    }
+    ok = ok && output_dir_open(in->out, in->force, &dir, &e);
+    output_dir_abandon(&dir);
+    ok = ok && prepared_get(&c, in->cache, &watch, &p, &e) &&
+         audit_make(&c, &p, in->around ? &plan : NULL, &settings, &a, &e) && run(in, &a, &e) && print(in, &a, &e);
+    audit_free(&a);
+    prepared_free(&p);
+    landmarks_free(&points);
+    issue_list_free(&issues);
+    return ok ? 0 : command_fail(&e);
+}

@@ -1,0 +1,198 @@
+/* gnathos cut CASE -o DIR: the bones of a case cut along its osteotomies, as files. */
+#include "app/planner/patient/anatomy.h"
+#include "app/cli/command.h"
+#include "app/planner/store/output_dir.h"
+#include "app/planner/patient/prepared_report.h"
+#include "geometry/mesh_file.h"
+#include "geometry/plane_file.h"
+#if GNATHOS_WITH_RENDER
+#include "render/anatomy.h"
+#endif
+#include <stdio.h>
+#include <stdlib.h>
+
+struct input {
+    command_options common;
+    const char *case_path[1], *target;
+    bool force;
+};
+
+static const struct argp_option options[] = {
+    {"output", 'o', "DIR", 0, "The folder of results, which must not exist yet", 0},
+    {"force", 'f', NULL, 0, "Replace earlier results in DIR", 0},
+    {0}};
+
+static error_t parse(int key, char *arg, struct argp_state *state)
+{
+    struct input *in = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &in->common;
+        return 0;
+    case 'o':
+        in->target = arg;
+        return 0;
+    case 'f':
+        in->force = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        return command_take(arg, in->case_path, 1, state);
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "name a case");
+        return 0;
+    case ARGP_KEY_END:
+        if (!in->target) argp_error(state, "name the folder of results with -o");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static bool write_bone(const surface *s, const char *name, const output_dir *d, err *e)
+{
+    static const char *const kinds[] = {"ply", "stl"};
+    for (int k = 0; k < 2 && s->triangle_count; k++) {
+        char file[64];
+        snprintf(file, sizeof file, "%s.%s", name, kinds[k]);
+        char *path = output_dir_file(d, file);
+        bool ok = mesh_write_surface(s, path, e);
+        free(path);
+        if (!ok) return false;
+    }
+    return true;
+}
+
+static bool write_picture(const anatomy *a, const char *title, const output_dir *d, err *e)
+{
+#if GNATHOS_WITH_RENDER
+    anatomy_piece piece[SEGMENT_COUNT];
+    int count = 0;
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        if (!a->segments.part[s].triangle_count) continue;
+        anatomy_piece *p = &piece[count++];
+        *p = (anatomy_piece){.part = {.bone = &a->segments.part[s],
+                                      .before = rigid_identity(),
+                                      .after = rigid_identity(),
+                                      .kind = MATERIAL_BONE,
+                                      .name = subject_segment_title((segment_id)s)}};
+        subject_segment_color((segment_id)s, p->part.rgb);
+        anatomy_apart((segment_id)s, &a->frame, 18, p->apart_mm);
+    }
+    gallery_style style = gallery_style_default();
+    char *path = output_dir_file(d, "exploded.png");
+    bool ok = anatomy_exploded_write(piece, count, NULL, 0, &a->frame, title, &style, 1920, 1080, path, e);
+    free(path);
+    return ok;
+#else
+    (void)a;
+    (void)title;
+    (void)d;
+    (void)e;
+    return true;
+#endif
+}
+
+static json_t *make_report(const case_file *c, const anatomy *a)
+{
+    json_t *planes = json_array();
+    for (int i = 0; i < a->cuts.plane_count; i++) {
+        const cut_plane *p = &a->cuts.plane[i];
+        json_array_append_new(planes, json_pack("{ss s[fff] s[fff]}", "name", p->label, "point", p->point[0],
+                                                p->point[1], p->point[2], "normal", p->normal[0],
+                                                p->normal[1], p->normal[2]));
+    }
+    return json_pack("{ss ss sf s{so so} so so}", "schema", "gnathos.cut.1", "case", c->name, "saw_mm",
+                     c->cuts.kerf_mm, "repair", "skull", repair_report_json(&a->skull_repair), "mandible",
+                     repair_report_json(&a->mandible_repair), "cuts", cuts_report(&a->cuts), "planes",
+                     planes);
+}
+
+static void print_plain(const anatomy *a, const char *target)
+{
+    const cut_report *r = &a->cuts;
+    printf("%-22s %12s %12s %12s %12s %10s\n", "cut (mm3)", "before", "piece", "rest", "saw", "error");
+    for (int i = 0; i < r->balance_count; i++) {
+        const cut_balance *b = &r->balance[i];
+        printf("%-22s %12.1f %12.1f %12.1f %12.1f %10.1e\n", b->name, b->before_mm3, b->piece_mm3,
+               b->rest_mm3, b->kerf_mm3, b->error_share);
+    }
+    for (int s = 0; s < SEGMENT_COUNT; s++)
+        if (r->volume_mm3[s] > 0)
+            printf("segment %-22s %10.2f cm3, %d triangles\n", segment_name((segment_id)s),
+                   r->volume_mm3[s] / 1000, a->segments.part[s].triangle_count);
+    for (int i = 0; i < r->clearance_count; i++) {
+        const cut_clearance *k = &r->clearance[i];
+        printf("  %-44s %6.1f mm, at least %4.1f: %s%s\n", k->name, k->value_mm, k->limit_mm,
+               k->ok ? "ok" : "TOO CLOSE", k->estimated ? " (estimated)" : "");
+    }
+    for (int i = 0; i < r->fragment_count; i++) {
+        const cut_fragment *f = &r->fragment[i];
+        printf("  island of %.1f mm3 from the %s: %s the %s, %.2f mm away\n", f->volume_mm3,
+               segment_name(f->from), f->from == f->to ? "stays with" : "goes to", segment_name(f->to),
+               f->gap_mm);
+    }
+    for (int i = 0; i < r->warning_count; i++) printf("  warning: %s\n", r->warning[i]);
+    printf("%s\n", target);
+}
+
+static bool write_all(const case_file *c, const anatomy *a, const json_t *report, output_dir *d, err *e)
+{
+    for (int s = 0; s < SEGMENT_COUNT; s++)
+        if (!write_bone(&a->segments.part[s], segment_name((segment_id)s), d, e)) return false;
+    if (!write_bone(&a->segments.kerf, "kerf", d, e)) return false;
+    static const char *const reports[] = {"cut_report.json",
+                                          "manifest.json"}; /* the latter marks our folders */
+    json_t *manifest = json_pack("{ss ss}", "schema", "gnathos.cut.1", "report", reports[0]);
+    bool ok = true;
+    for (int k = 0; k < 2 && ok; k++) {
+        char *path = output_dir_file(d, reports[k]);
+        ok = json_file_write(k ? manifest : report, path, e);
+        free(path);
+    }
+    json_decref(manifest);
+    if (ok && a->cuts.plane_count) {
+        char *path = output_dir_file(d, "cut_planes.mrk.json");
+        ok = planes_write(a->cuts.plane, a->cuts.plane_count, path, e);
+        free(path);
+    }
+    return ok && write_picture(a, c->name, d, e);
+}
+
+int command_cut(int argc, char **argv)
+{
+    static const struct argp argp = {
+        options,
+        parse,
+        "CASE -o DIR",
+        "Cuts the bones of a case along its osteotomies and writes every segment, the bone "
+        "that the saw removes, the planes, a report and a picture.",
+        command_common,
+        NULL,
+        NULL};
+    struct input in = {0};
+    argp_parse(&argp, argc, argv, 0, NULL, &in);
+    const task watch = command_task(&in.common);
+    err e = {0};
+    case_file c;
+    anatomy a = {0};
+    output_dir d = {0};
+    if (!case_file_load(in.case_path[0], &c, &e) || !output_dir_open(in.target, in.force, &d, &e))
+        return command_fail(&e);
+    bool ok = anatomy_make(&c, false, &watch, &a, &e);
+    json_t *report = ok ? make_report(&c, &a) : NULL;
+    if (ok && command_interrupted()) ok = err_set(&e, ERR_INTERRUPTED, "interrupted");
+    ok = ok && write_all(&c, &a, report, &d, &e);
+    if (ok)
+        ok = output_dir_close(&d, &e);
+    else
+        output_dir_abandon(&d);
+    if (ok && !GNATHOS_WITH_RENDER)
+        command_note(&in.common, "no picture: this build has no renderer (GNATHOS_RENDER=OFF)");
+    if (ok && in.common.json)
+        command_print_json(json_incref(report), "cut");
+    else if (ok)
+        print_plain(&a, in.target);
+    json_decref(report);
+    anatomy_free(&a);
+    return ok ? 0 : command_fail(&e);
+}

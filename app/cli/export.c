@@ -1,0 +1,151 @@
+/* gnathos export OUT --format F -o DIR: the shapes of an outcome, before and as planned, for other programs. */
+#include "app/cli/command.h"
+#include "app/planner/predict/outcome_read.h"
+#include "geometry/glb_file.h"
+#include "geometry/mem.h"
+#include "geometry/mesh_file.h"
+#include "geometry/write_whole.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct input {
+    command_options common;
+    const char *folder[1], *format, *target;
+};
+
+static const char *const formats[] = {"glb", "obj", "ply", "stl", "vtp"};
+enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
+
+static const struct argp_option options[] = {
+    {"format", 'f', "FORMAT", 0, "glb (one file, moves as the morph target \"planned\"), obj, ply, stl, or vtp "
+                                 "(with the array displacement)", 0},
+    {"output", 'o', "DIR", 0, "Folder for the files, which must not exist yet", 0},
+    {0}};
+
+static error_t parse(int key, char *arg, struct argp_state *state)
+{
+    struct input *in = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'f':
+        for (int i = 0; i < FORMAT_COUNT; i++)
+            if (!strcmp(arg, formats[i])) in->format = formats[i];
+        if (!in->format) argp_error(state, "--format %s: must be glb, obj, ply, stl or vtp", arg);
+        return 0;
+    case 'o': in->target = arg; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, in->folder, 1, state);
+    case ARGP_KEY_NO_ARGS: argp_error(state, "name the folder of an outcome"); return 0;
+    case ARGP_KEY_END:
+        if (!in->format) argp_error(state, "name a format with --format");
+        if (!in->target) argp_error(state, "name the folder of results with -o");
+        return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+typedef struct shape { /* one of the surfaces of an outcome */
+    char name[40];
+    const surface *rest;
+    double *planned; /* [3*vertex_count], or NULL: it stays */
+    double rgb[3];
+} shape;
+
+enum { SHAPES_MAX = 1 + SEGMENT_COUNT };
+
+static int make_shapes(const outcome_shapes *o, shape out[SHAPES_MAX])
+{
+    static const double skin[3] = {0.80, 0.64, 0.55};
+    int count = 0;
+    out[count++] = (shape){.name = "skin",
+                           .rest = &o->skin_before,
+                           .planned = COPY_ARRAY(double, o->skin_after.xyz, 3 * (size_t)o->skin_after.vertex_count),
+                           .rgb = {skin[0], skin[1], skin[2]}};
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        const surface *bone = &o->at_rest.part[s];
+        if (!bone->triangle_count) continue;
+        shape *to = &out[count++];
+        *to = (shape){.rest = bone};
+        snprintf(to->name, sizeof to->name, "segment_%s", segment_name((segment_id)s));
+        segment_color((segment_id)s, to->rgb);
+        if (rigid_is_identity(&o->move[s])) continue;
+        surface moved = surface_copy(bone);
+        surface_transform(&moved, &o->move[s]);
+        to->planned = moved.xyz;
+        moved.xyz = NULL;
+        surface_free(&moved);
+    }
+    return count;
+}
+
+static bool write_glb(const shape *shapes, int count, const char *folder, err *e)
+{
+    glb_shape all[SHAPES_MAX];
+    for (int i = 0; i < count; i++) {
+        const shape *s = &shapes[i];
+        all[i] = (glb_shape){s->name, s->rest, s->planned, {s->rgb[0], s->rgb[1], s->rgb[2]}};
+    }
+    char path[4096];
+    snprintf(path, sizeof path, "%s/head.glb", folder);
+    return glb_write(all, count, path, e);
+}
+
+/* NAME.vtp at rest, with where each of its points goes. */
+static bool write_arrays(const shape *s, const char *folder, err *e)
+{
+    size_t n = 3 * (size_t)s->rest->vertex_count;
+    double *u = NEW_ARRAY(double, n);
+    for (size_t i = 0; s->planned && i < n; i++) u[i] = s->planned[i] - s->rest->xyz[i];
+    point_array array = {"displacement", 3, u};
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s.vtp", folder, s->name);
+    bool ok = mesh_write_surface_arrays(s->rest, &array, 1, path, e);
+    free(u);
+    return ok;
+}
+
+/* NAME_before and NAME_after; what stays is written once, as NAME. */
+static bool write_meshes(const shape *s, const char *format, const char *folder, err *e)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s%s.%s", folder, s->name, s->planned ? "_before" : "", format);
+    if (!mesh_write_surface(s->rest, path, e)) return false;
+    if (!s->planned) return true;
+    surface after = *s->rest;
+    after.xyz = s->planned;
+    snprintf(path, sizeof path, "%s/%s_after.%s", folder, s->name, format);
+    return mesh_write_surface(&after, path, e);
+}
+
+static bool write_all(const outcome_shapes *o, const char *format, const char *folder, err *e)
+{
+    shape shapes[SHAPES_MAX];
+    int count = make_shapes(o, shapes);
+    bool ok = true, glb = !strcmp(format, "glb"), arrays = !strcmp(format, "vtp");
+    if (glb) ok = write_glb(shapes, count, folder, e);
+    for (int i = 0; ok && !glb && i < count; i++)
+        ok = arrays ? write_arrays(&shapes[i], folder, e) : write_meshes(&shapes[i], format, folder, e);
+    for (int i = 0; i < count; i++) free(shapes[i].planned);
+    return ok;
+}
+
+int command_export(int argc, char **argv)
+{
+    static const struct argp argp = {options, parse, "OUT",
+                                     "Write the skin and the segments of an outcome, before and as planned, for other "
+                                     "programs. Axes are LPS, lengths mm, and the files say so (SPACE=LPS); in .glb the "
+                                     "root node takes them to the metres and axes of glTF.",
+                                     command_common, NULL, NULL};
+    struct input in = {0};
+    argp_parse(&argp, argc, argv, 0, NULL, &in);
+    err e = {0};
+    outcome_shapes o = {0};
+    whole_folder folder = {0};
+    bool ok = outcome_shapes_read(in.folder[0], &o, &e) && whole_folder_open(in.target, &folder, &e) &&
+              write_all(&o, in.format, folder.temporary, &e) && whole_folder_close(&folder, &e);
+    whole_folder_abandon(&folder);
+    outcome_shapes_free(&o);
+    if (!ok) return command_fail(&e);
+    if (!in.common.quiet) printf("Results in %s\n", in.target);
+    return 0;
+}

@@ -1,0 +1,242 @@
+/* gnathos import: a case folder from surfaces, or from a label map and a CT. */
+#include "app/planner/patient/import.h"
+#include "geometry/write_whole.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    KEY_SKIN = 512,
+    KEY_UPPER,
+    KEY_LOWER,
+    KEY_LANDMARKS,
+    KEY_FRAME,
+    KEY_NAME,
+    KEY_UNIT,
+    KEY_LABELS,
+    KEY_PRESET,
+    KEY_CT,
+    KEY_HU,
+    KEY_SEAL,
+    KEY_EDGE,
+    KEY_SKULL,
+    KEY_MANDIBLE
+};
+
+typedef struct import_input {
+    command_options common;
+    import_params p;
+    const char *folder;
+} import_input;
+
+static const struct argp_option options[] = {
+    {NULL, 0, NULL, 0,
+     "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb), or labels of --labels", 1},
+    {"skin", KEY_SKIN, "FROM", 0, "Skin of the head; may be open at neck, mouth, eyes and nostrils", 1},
+    {"skull", KEY_SKULL, "FROM", 0, "Skull with the maxilla", 1},
+    {"mandible", KEY_MANDIBLE, "FROM", 0, "Mandible", 1},
+    {"upper-teeth", KEY_UPPER, "FROM", 0, "Upper teeth, where they are apart from the skull", 1},
+    {"lower-teeth", KEY_LOWER, "FROM", 0, "Lower teeth, where they are apart from the mandible", 1},
+    {"landmarks", KEY_LANDMARKS, "FILE", 0, "Points of 3D Slicer (.mrk.json, .fcsv)", 1},
+    {NULL, 0, NULL, 0, "How mesh files are meant:", 2},
+    {"frame", KEY_FRAME, "AXES", 0, "lps (where absent) or ras: axes of meshes without a SPACE tag", 2},
+    {"unit", KEY_UNIT, "UNIT", 0, "mm, cm or m: length unit of the mesh files", 2},
+    {NULL, 0, NULL, 0, "From images:", 3},
+    {"labels", KEY_LABELS, "FILE", 0,
+     "Label map (.nrrd .seg.nrrd .nii .nii.gz); labels are chosen by name, or by number where the file names "
+     "none; "
+     "several are separated by commas",
+     3},
+    {"preset", KEY_PRESET, "NAME", 0, "dental-segmentator: the labels of that tool", 3},
+    {"ct", KEY_CT, "FILE", 0, "Take the skin from this CT", 3},
+    {"skin-hu", KEY_HU, "HU", 0, "Grey value of the skin's surface in the CT (-300)", 3},
+    {"seal", KEY_SEAL, "MM", 0,
+     "Seal openings of that skin narrower than this, and the airways behind them (8; 0: none)", 3},
+    {"edge", KEY_EDGE, "MM", 0, "Edge length of surfaces made from images (1.6)", 3},
+    {NULL, 0, NULL, 0, "Result:", 4},
+    {"output", 'o', "CASE", 0, "The new case folder", 4},
+    {"name", KEY_NAME, "TEXT", 0, "Name of the case (the folder's)", 4},
+    {0}};
+
+static double number(const char *arg, double low, double high, const char *what, struct argp_state *state)
+{
+    char *end;
+    double value = strtod(arg, &end);
+    if (end == arg || *end || !(value >= low && value <= high))
+        argp_error(state, "--%s=%s: must be a number from %g to %g", what, arg, low, high);
+    return value;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state)
+{
+    import_input *in = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &in->common;
+        return 0;
+    case KEY_SKIN:
+        in->p.from[CASE_SKIN] = arg;
+        return 0;
+    case KEY_SKULL:
+        in->p.from[CASE_SKULL] = arg;
+        return 0;
+    case KEY_MANDIBLE:
+        in->p.from[CASE_MANDIBLE] = arg;
+        return 0;
+    case KEY_UPPER:
+        in->p.from[CASE_UPPER_TEETH] = arg;
+        return 0;
+    case KEY_LOWER:
+        in->p.from[CASE_LOWER_TEETH] = arg;
+        return 0;
+    case KEY_LANDMARKS:
+        in->p.landmarks = arg;
+        return 0;
+    case KEY_NAME:
+        in->p.name = arg;
+        return 0;
+    case KEY_LABELS:
+        in->p.labels = arg;
+        return 0;
+    case KEY_PRESET:
+        in->p.preset = arg;
+        return 0;
+    case KEY_CT:
+        in->p.ct = arg;
+        return 0;
+    case KEY_HU:
+        in->p.skin_hu = number(arg, -1000, 3000, "skin-hu", state);
+        return 0;
+    case KEY_SEAL:
+        in->p.seal_mm = number(arg, 0, 40, "seal", state);
+        return 0;
+    case KEY_EDGE:
+        in->p.mesh.edge_mm = number(arg, 0.3, 10, "edge", state);
+        return 0;
+    case 'o':
+        in->folder = arg;
+        return 0;
+    case KEY_FRAME:
+        if (!strcmp(arg, "lps"))
+            in->p.space = MESH_SPACE_LPS;
+        else if (!strcmp(arg, "ras"))
+            in->p.space = MESH_SPACE_RAS;
+        else
+            argp_error(state, "--frame=%s: must be lps or ras", arg);
+        return 0;
+    case KEY_UNIT:
+        in->p.unit_mm = !strcmp(arg, "mm") ? 1 : !strcmp(arg, "cm") ? 10 : !strcmp(arg, "m") ? 1000 : 0;
+        if (!(in->p.unit_mm > 0)) argp_error(state, "--unit=%s: must be mm, cm or m", arg);
+        return 0;
+    case ARGP_KEY_ARG:
+        argp_error(state, "\"%s\": every input is named by an option, as in --skin=%s", arg, arg);
+        return 0;
+    case ARGP_KEY_END:
+        if (!in->folder) argp_error(state, "name the new case folder with -o");
+        if (in->p.preset && !in->p.labels) argp_error(state, "--preset needs --labels");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp argp = {options,
+                                 parse,
+                                 "-o CASE",
+                                 "Makes a case folder from surfaces, or from a label map and a CT. Surfaces "
+                                 "are stored as they are (equal vertices "
+                                 "welded, degenerate triangles dropped) and reported on; `gnathos prepare` "
+                                 "repairs them. Units are never guessed.",
+                                 command_common,
+                                 NULL,
+                                 NULL};
+
+static void print_plain(const import_result *r, const char *folder)
+{
+    printf("case %s\n", folder);
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
+        const import_part *part = &r->part[i];
+        if (!part->mesh.vertex_count) continue;
+        printf("  %-12s %s%s\n", case_surface_name((case_surface)i), part->source,
+               part->thresholded ? " (thresholded skin)" : "");
+        printf("  %12s %d vertices, %d triangles, %d pieces, %.1f mm corner to corner\n", "",
+               part->mesh.vertex_count, part->mesh.triangle_count, part->components, part->diagonal_mm);
+        printf("  %12s %d holes (%d open edges), %d crowded edges, %d%s self-intersections\n", "",
+               part->holes, part->open_edges, part->crowded_edges, part->self_intersections,
+               part->self_intersections >= IMPORT_INTERSECTIONS_MOST ? " or more" : "");
+        if (part->read.welded_vertices || part->read.dropped_triangles || part->read.split_polygons)
+            printf("  %12s changed: %d vertices welded, %d degenerate triangles dropped, %d polygons split\n",
+                   "", part->read.welded_vertices, part->read.dropped_triangles, part->read.split_polygons);
+        if (part->read.ras) printf("  %12s changed: turned from RAS to LPS\n", "");
+        if (part->from_labels)
+            printf("  %12s changed: %d islands and %d small pieces dropped, %lld voxels of cavities filled, "
+                   "%lld sealed, %d "
+                   "crowded edges parted; %.0f mm^3 of voxels, %.0f in the surface\n",
+                   "", part->islands_dropped, part->made.pieces_dropped, (long long)part->cavity_voxels,
+                   (long long)part->sealed_voxels, part->made.crowded_edges, part->label_mm3,
+                   part->volume_mm3);
+    }
+    if (r->has_points) printf("  %-12s %d points\n", "landmarks", r->points.count);
+}
+
+static json_t *part_json(const import_part *part)
+{
+    json_t *o = json_pack(
+        "{s:s, s:b, s:b, s:b, s:b, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f}", "source",
+        part->source, "from_labels", part->from_labels, "thresholded", part->thresholded, "tagged",
+        part->read.tagged, "turned_from_ras", part->read.ras, "vertices", part->mesh.vertex_count,
+        "triangles", part->mesh.triangle_count, "pieces", part->components, "holes", part->holes,
+        "open_edges", part->open_edges, "crowded_edges", part->crowded_edges, "self_intersections",
+        part->self_intersections, "welded_vertices", part->read.welded_vertices, "dropped_triangles",
+        part->read.dropped_triangles, "split_polygons", part->read.split_polygons, "diagonal_mm",
+        part->diagonal_mm, "area_mm2", part->area_mm2);
+    if (!part->open_edges) json_object_set_new(o, "volume_mm3", json_real(part->volume_mm3));
+    if (part->from_labels) {
+        json_object_set_new(o, "islands_dropped", json_integer(part->islands_dropped));
+        json_object_set_new(o, "pieces_dropped", json_integer(part->made.pieces_dropped));
+        json_object_set_new(o, "crowded_edges_parted", json_integer(part->made.crowded_edges));
+        json_object_set_new(o, "cavity_voxels", json_integer(part->cavity_voxels));
+        json_object_set_new(o, "sealed_voxels", json_integer(part->sealed_voxels));
+        json_object_set_new(o, "label_mm3", json_real(part->label_mm3));
+    }
+    return o;
+}
+
+static void print_json(const import_result *r, const char *folder, const issue_list *notes)
+{
+    json_t *surfaces = json_object(), *list = json_array();
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++)
+        if (r->part[i].mesh.vertex_count)
+            json_object_set_new(surfaces, case_surface_name((case_surface)i), part_json(&r->part[i]));
+    for (int i = 0; i < notes->count; i++)
+        json_array_append_new(list, json_pack("{s:s, s:s}", "level", issue_level_name(notes->item[i].level),
+                                              "text", notes->item[i].text));
+    json_t *result = json_pack("{s:s, s:o, s:i, s:i, s:o}", "case", folder, "surfaces", surfaces, "landmarks",
+                               r->points.count, "landmarks_skipped", r->points_skipped, "issues", list);
+    if (r->contacts >= 0) json_object_set_new(result, "jaw_contact_voxels", json_integer(r->contacts));
+    command_print_json(result, "import");
+}
+
+int command_import(int argc, char **argv)
+{
+    import_input in = {.p = import_params_default()};
+    import_result r = {0};
+    issue_list notes = {0};
+    whole_folder target;
+    err e = {0};
+    argp_parse(&argp, argc, argv, 0, NULL, &in);
+    const task watch = command_task(&in.common);
+    /* A target in use is refused now, not after minutes. */
+    bool good = whole_folder_open(in.folder, &target, &e);
+    if (good) whole_folder_abandon(&target);
+    good = good && import_read(&in.p, &watch, &r, &notes, &e) && import_write(&in.p, &r, in.folder, &e);
+    command_print_issues(&in.common, &notes);
+    if (good && in.common.json)
+        print_json(&r, in.folder, &notes);
+    else if (good && !in.common.quiet)
+        print_plain(&r, in.folder);
+    issue_list_free(&notes);
+    import_result_free(&r);
+    return good ? 0 : command_fail(&e);
+}

@@ -1,0 +1,116 @@
+/* gnathos VERB ...: finds the verb and runs it. */
+#include "app/cli/command.h"
+#include "app/planner/store/suggest.h"
+#include <stdio.h>
+#include <string.h>
+
+#define NOT_BUILT NULL, "is not built yet"
+#if GNATHOS_WITH_CGAL
+#define WITH_CGAL(run) run, NULL
+#else
+#define WITH_CGAL(run) NULL, "cannot run: this build has no cuts and meshing (GNATHOS_CGAL=OFF)"
+#endif
+#if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
+#define WITH_SIM(run) run, NULL
+#elif GNATHOS_WITH_SIM
+#define WITH_SIM(run) WITH_CGAL(run)
+#else
+#define WITH_SIM(run) NULL, "cannot run: this build has no solver (GNATHOS_SIM=OFF)"
+#endif
+#if GNATHOS_WITH_SIM
+#define WITH_SOLVER(run) run, NULL
+#else
+#define WITH_SOLVER(run) WITH_SIM(run)
+#endif
+#if GNATHOS_WITH_RENDER
+#define WITH_RENDER(run) run, NULL
+#else
+#define WITH_RENDER(run) NULL, "cannot run: this build has no renderer (GNATHOS_RENDER=OFF)"
+#endif
+
+#if GNATHOS_WITH_REPORT && GNATHOS_WITH_RENDER && GNATHOS_WITH_CGAL
+#define WITH_REPORT(run) run, NULL
+#elif GNATHOS_WITH_REPORT && GNATHOS_WITH_RENDER
+#define WITH_REPORT(run) WITH_CGAL(run)
+#elif GNATHOS_WITH_REPORT
+#define WITH_REPORT(run) WITH_RENDER(run)
+#else
+#define WITH_REPORT(run) NULL, "cannot run: this build has no report (GNATHOS_REPORT=OFF)"
+#endif
+
+const verb verbs[] = {
+    {"help", "what a verb, a case, a plan or the landmarks are made of", command_help, NULL},
+    {"new", "make a case of a synthetic head", WITH_CGAL(command_new)},
+    {"import", "make a case from meshes or a label map", WITH_CGAL(command_import)},
+    {"check", "read a case and a plan and name everything wrong in them", WITH_CGAL(command_check)},
+    {"cut", "cut the bones along the osteotomies", WITH_CGAL(command_cut)},
+    {"prepare", "cut the bones and mesh the soft tissue of a case", WITH_CGAL(command_prepare)},
+    {"predict", "predict the face after a plan", WITH_SIM(command_predict)},
+    {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
+    {"report", "one page about an outcome, to open in a browser", WITH_REPORT(command_report)},
+    {"export", "write the shapes of an outcome for other programs", WITH_CGAL(command_export)},
+    {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
+    {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
+    {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(command_audit)},
+    {"study", "error against run time of a case", WITH_SIM(command_study)},
+    {"stress", "stiff materials and extreme moves", WITH_SOLVER(command_stress)},
+    {"serve", "plan in a browser", NOT_BUILT},
+    {"cohort", "run many cases", NOT_BUILT},
+    {"shape", "statistical shapes of heads", NOT_BUILT},
+    {"strain", "muscle strains from face captures", NOT_BUILT},
+};
+const int verb_count = sizeof verbs / sizeof verbs[0];
+
+static int unknown_verb(const char *word)
+{
+    const char *names[sizeof verbs / sizeof verbs[0]];
+    for (int i = 0; i < verb_count; i++) names[i] = verbs[i].name;
+    int near = suggest_nearest(word, names, verb_count);
+    if (near >= 0)
+        fprintf(stderr, "gnathos: unknown verb \"%s\"; did you mean \"%s\"?\n", word, names[near]);
+    else
+        fprintf(stderr, "gnathos: unknown verb \"%s\"; gnathos --help lists the verbs\n", word);
+    return ERR_USAGE;
+}
+
+static int dispatch(int argc, char **argv)
+{
+    const char *word = argc > 1 ? argv[1] : "--help";
+    if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "-?")) word = "help";
+    if (!strcmp(word, "--version") || !strcmp(word, "-V")) {
+        printf("gnathos %s\n", GNATHOS_VERSION);
+        return 0;
+    }
+    if (argc < 2) {
+        fprintf(stderr, "gnathos: name a verb; gnathos --help lists them\n");
+        return ERR_USAGE;
+    }
+    if (word[0] == '-') {
+        fprintf(stderr, "gnathos: unknown option \"%s\"; options come after the verb\n", word);
+        return ERR_USAGE;
+    }
+    for (int i = 0; i < verb_count; i++) {
+        if (strcmp(verbs[i].name, word)) continue;
+        if (!verbs[i].run) {
+            fprintf(stderr, "gnathos: %s %s\n", word, verbs[i].refusal);
+            return ERR_USAGE;
+        }
+        char name[64];
+        snprintf(name, sizeof name, "gnathos %s", word);
+        argv[1] = name;
+        return verbs[i].run(argc - 1, argv + 1);
+    }
+    return unknown_verb(word);
+}
+
+int main(int argc, char **argv)
+{
+    argp_err_exit_status = ERR_USAGE;
+    argp_program_version = "gnathos " GNATHOS_VERSION;
+    int status = dispatch(argc, argv);
+    if ((fflush(stdout) || ferror(stdout)) && status == 0) {
+        fprintf(stderr, "gnathos: the result could not be written to its end\n");
+        return ERR_RESOURCE;
+    }
+    return status;
+}

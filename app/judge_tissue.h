@@ -1,9 +1,0 @@
-/* judge_tissue: the limits that only the solved soft tissue answers. */
-#pragma once
-#include "app/carried.h"
-#include "app/judge.h"
-#include "sim/newton.h"
-
-/* Appends them to the judgement of the bones. points NULL (the solve failed): what needs the face is not judged. */
-void judge_tissue(const case_file *c, const prepared *p, const equilibrium *q, const carried_landmarks *points,
-                  judgement *io);

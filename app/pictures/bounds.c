@@ -1,0 +1,171 @@
+#include "app/planner/bounds/write.h"
+#include "geometry/mem.h"
+#include "render/chart.h"
+#include "render/png_file.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 1600, COLOURS = 7, TEXT = 160 };
+
+/* Told apart in all common forms of colour blindness: M. Okabe and K. Ito, "Color Universal Design", 2008. */
+static const double colours[COLOURS][3] = {{0.84, 0.37, 0.00}, {0.00, 0.45, 0.70}, {0.90, 0.62, 0.00},
+                                           {0.80, 0.47, 0.65}, {0.00, 0.62, 0.45}, {0.34, 0.71, 0.91},
+                                           {0.94, 0.89, 0.26}};
+static const double fine_rgb[3] = {0.96, 0.97, 0.96};
+
+struct kinds {
+    int count;
+    chart_kind item[2 * LIMIT_COUNT + 1];
+    char text[2 * LIMIT_COUNT + 1][TEXT];
+};
+
+static int by_count(const void *a, const void *b)
+{
+    const int64_t *p = a, *q = b; /* nodes, limit */
+    return p[0] != q[0] ? (p[0] < q[0] ? 1 : -1) : p[1] < q[1] ? -1 : p[1] > q[1];
+}
+
+/* Fine is kind 0; the limits follow by how much of the map they decide, each with a stop and a caution. */
+static void make_kinds(const feasible_map *m, struct kinds *out, int32_t *kind)
+{
+    int64_t seen[LIMIT_COUNT][2] = {0};
+    int number[LIMIT_COUNT][3] = {0};
+    for (int i = 0; i < LIMIT_COUNT; i++) seen[i][1] = i;
+    for (int64_t i = 0; i < m->node_count; i++)
+        if (m->node[i].level != VERDICT_FINE) seen[m->node[i].reason][0]++;
+    qsort(seen, LIMIT_COUNT, sizeof seen[0], by_count);
+    out->item[0] = (chart_kind){.rgb = {fine_rgb[0], fine_rgb[1], fine_rgb[2]}, .text = "fine"};
+    out->count = 1;
+    for (int i = 0; i < LIMIT_COUNT && seen[i][0]; i++)
+        for (int level = VERDICT_STOP; level >= VERDICT_CAUTION; level--) {
+            int64_t nodes = 0;
+            for (int64_t n = 0; n < m->node_count; n++)
+                nodes += m->node[n].level == level && m->node[n].reason == seen[i][1];
+            if (!nodes) continue;
+            int k = out->count++;
+            const limit *l = &limit_default[seen[i][1]];
+            snprintf(out->text[k], TEXT, "%s: %s%s", level == VERDICT_STOP ? "stop" : "caution",
+                     seen[i][1] >= LIMIT_SOLVED ? "soft tissue, " : "", l->what);
+            out->item[k] = (chart_kind){.pattern = level == VERDICT_STOP ? CHART_PLAIN : i < COLOURS ? CHART_DOTS : CHART_STRIPES,
+                                        .rank = level,
+                                        .letter = {(char)((level == VERDICT_STOP ? 'A' : 'a') + i % 26)},
+                                        .text = out->text[k]};
+            memcpy(out->item[k].rgb, colours[i % COLOURS], sizeof out->item[k].rgb);
+            number[seen[i][1]][level] = k;
+        }
+    for (int64_t n = 0; n < m->node_count; n++)
+        kind[n] = m->node[n].level == VERDICT_FINE ? 0 : number[m->node[n].reason][m->node[n].level];
+}
+
+static const char *title_of(const control *x, char text[TEXT])
+{
+    static const struct {
+        const char *name, *title;
+    } known[] = {{"maxilla_advance_mm", "maxilla forwards"},  {"maxilla_impaction_mm", "maxilla upwards (impaction)"},
+                 {"mandible_advance_mm", "mandible forwards"}, {"chin_advance_mm", "chin forwards"}};
+    const char *title = NULL;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (!strcmp(known[i].name, x->name)) title = known[i].title;
+    if (title) snprintf(text, TEXT, "%s, mm", title);
+    else snprintf(text, TEXT, "%s", x->name);
+    return text;
+}
+
+/* The points of this plane at which the tissue was solved. */
+static int add_solved(const audit *a, const feasible_map *m, chart_mark *mark)
+{
+    int count = 0;
+    for (int i = 0; i < a->tissue.count; i++) {
+        const int32_t *at = a->tissue.point[i].at;
+        bool here = true;
+        for (int k = 0; k < SAMPLE_AXES_MAX; k++)
+            here &= at[k] == 0 || k == m->params.axis[0] || k == m->params.axis[1];
+        if (!here) continue;
+        mark[count] = (chart_mark){audit_value(a, m->params.axis[0], at[m->params.axis[0]]),
+                                   audit_value(a, m->params.axis[1], at[m->params.axis[1]]), CHART_DOT,
+                                   count ? NULL : "soft tissue solved here"};
+        count++;
+    }
+    return count;
+}
+
+static bool draw(const audit *a, int request, const char *path, err *e)
+{
+    const feasible_map *m = &a->map[request];
+    struct kinds *kinds = NEW_ARRAY(struct kinds, 1);
+    int32_t *kind = NEW_ARRAY(int32_t, m->node_count);
+    double *crossing[2];
+    make_kinds(m, kinds, kind);
+    for (int k = 0; k < 2; k++) {
+        crossing[k] = NEW_ARRAY(double, m->node_count);
+        for (int64_t i = 0; i < m->node_count; i++) crossing[k][i] = m->edge[k][i] / m->params.spacing;
+    }
+    char titles[2][TEXT], subtitle[2 * TEXT], base[TEXT], others[2 * TEXT] = "";
+    const control *x[2];
+    chart_axis axis[2];
+    for (int k = 0; k < 2; k++) {
+        int c = m->params.axis[k];
+        x[k] = &a->settings.control[c];
+        axis[k] = (chart_axis){.title = title_of(x[k], titles[k]), .low = audit_value(a, c, m->params.low[k]),
+                               .step = a->settings.spacing, .count = m->count[k]};
+    }
+    char always[1024] = "";
+    for (int l = 0; l < LIMIT_COUNT; l++)
+        if (a->throughout[l] > LIMIT_FINE) {
+            size_t n = strlen(always);
+            snprintf(always + n, sizeof always - n, "%s%s (%s)", n ? "; " : "Throughout, so not drawn: ",
+                     limit_default[l].what, limit_level_name(a->throughout[l]));
+        }
+    bool planned = *a->base.path;
+    snprintf(subtitle, sizeof subtitle, "%s, %.12s; other controls %s", a->patient->name, a->prepared->hash,
+             planned ? "as in the plan" : "unmoved");
+    chart_mark *mark = NEW_ARRAY(chart_mark, 2 + a->tissue.count);
+    int marks = add_solved(a, m, mark);
+    mark[marks++] = (chart_mark){0, 0, CHART_CROSS, "nothing moved"};
+    if (planned) {
+        snprintf(base, sizeof base, "the plan: %.120s", a->base.name);
+        mark[marks++] = (chart_mark){audit_value(a, m->params.axis[0], 0), audit_value(a, m->params.axis[1], 0),
+                                     CHART_RING, base};
+    }
+    snprintf(others, sizeof others,
+             "Heavy line: where a limit stops, found to %.3g; light line: where caution begins. Colours name the limit "
+             "that decides. Points are judged every %g, %g apart where nothing changes.",
+             a->step, a->settings.spacing, a->settings.spacing * 2);
+    const char *notes[] = {others, always};
+    chart c = {.title = "What is feasible, and what stops it",
+               .subtitle = subtitle,
+               .x = axis[0],
+               .y = axis[1],
+               .kind = kind,
+               .crossing = {crossing[0], crossing[1]},
+               .veiled = m->behind_count ? m->behind : NULL,
+               .veil_text = m->behind_count ? "feasible, but behind an infeasible point as seen from the base" : NULL,
+               .kinds = kinds->item,
+               .kind_count = kinds->count,
+               .marks = mark,
+               .mark_count = marks,
+               .notes = notes,
+               .note_count = *always ? 2 : 1};
+    image im = {0};
+    const png_note note[] = {{"case", a->prepared->hash}};
+    bool ok = chart_draw(&c, WIDTH, !strcmp(x[0]->unit, x[1]->unit), &im, e) && png_file_write(&im, note, 1, path, e);
+    image_free(&im);
+    for (int k = 0; k < 2; k++) free(crossing[k]);
+    free(mark);
+    free(kind);
+    free(kinds);
+    return ok;
+}
+
+bool audit_write_pictures(const audit *a, const output_dir *dir, err *e)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < a->settings.request_count; i++) {
+        if (a->settings.request[i].axis_count != 2) continue;
+        char *name = audit_map_name(a, i, ".png"), *path = output_dir_file(dir, name);
+        ok = draw(a, i, path, e);
+        free(path);
+        free(name);
+    }
+    return ok;
+}

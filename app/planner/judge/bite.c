@@ -1,0 +1,45 @@
+/* How the teeth and the midlines stand as planned, from landmarks alone. */
+#include "app/planner/judge/parts.h"
+#include "geometry/vec.h"
+
+enum { ACROSS, BACK, UP }; /* axes of the head frame */
+
+static bool planned(const judge *j, const plan_moves *m, const char *label, double local[3])
+{
+    double p[3];
+    if (!judge_landmark(j, m, label, p)) return false;
+    head_frame_to_local(&j->prepared->frame, p, local);
+    return true;
+}
+
+static finding *add(const judge *j, judgement *out, limit_id id, double value, const char *note)
+{
+    return judgement_add(out, j->patient, id, "", value, false, note);
+}
+
+static void judge_incisors(const judge *j, const plan_moves *m, judgement *out)
+{
+    static const char *const apart = "the scan shows the jaws apart, so that the plan's bite is not known";
+    double u1[3], l1[3];
+    bool there = planned(j, m, "U1", u1) && planned(j, m, "L1", l1) && !j->jaws_apart;
+    double overjet = there ? l1[BACK] - u1[BACK] : (double)NAN, overlap = there ? l1[UP] - u1[UP] : (double)NAN;
+    add(j, out, LIMIT_OVERJET, overjet, there ? NULL : apart);
+    add(j, out, LIMIT_OVERBITE, overlap, there ? NULL : apart);
+    add(j, out, LIMIT_OPEN_BITE, there ? fmax(-overlap, 0) : overlap, there ? NULL : apart);
+    add(j, out, LIMIT_DENTAL_MIDLINE, there ? l1[ACROSS] - u1[ACROSS] : (double)NAN, there ? NULL : apart);
+}
+
+void judge_bite(const judge *j, const plan_moves *m, judgement *out)
+{
+    double a[3], b[3], c[3];
+    judge_incisors(j, m, out);
+    bool there = planned(j, m, "U1", a) && planned(j, m, "N", b); /* the face's midline runs through N */
+    add(j, out, LIMIT_UPPER_MIDLINE, there ? a[ACROSS] - b[ACROSS] : (double)NAN, there ? NULL : "needs U1 and N");
+    there = planned(j, m, "Me", a) && planned(j, m, "N", b);
+    add(j, out, LIMIT_CHIN_DEVIATION, there ? a[ACROSS] - b[ACROSS] : (double)NAN, there ? NULL : "needs Me and N");
+    there = planned(j, m, "U3_L", a) && planned(j, m, "U3_R", b);
+    add(j, out, LIMIT_CANINE_YAW, there ? a[BACK] - b[BACK] : (double)NAN, there ? NULL : "needs U3_L and U3_R");
+    there = planned(j, m, "U1", a) && planned(j, m, "U6_L", b) && planned(j, m, "U6_R", c);
+    double drop = there ? (b[UP] + c[UP]) / 2 - a[UP] : (double)NAN, reach = there ? (b[BACK] + c[BACK]) / 2 - a[BACK] : 1;
+    add(j, out, LIMIT_OCCLUSAL_PLANE, atan2(drop, reach) * 180 / M_PI, there ? NULL : "needs U1, U6_L and U6_R");
+}

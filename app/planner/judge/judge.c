@@ -1,0 +1,152 @@
+#include "app/planner/judge/parts.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include <assert.h>
+#include <stdlib.h>
+
+finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value,
+                       bool estimated, const char *note)
+{
+    assert(out->count < FINDINGS_MAX);
+    finding *f = &out->finding[out->count];
+    *f = (finding){.limit = id,
+                   .where = where,
+                   .value = value,
+                   .level = limit_judge(&c->limits[id], value),
+                   .margin = isnan(value) ? HUGE_VAL : limit_margin(&c->limits[id], value),
+                   .estimated = estimated,
+                   .segment_a = -1,
+                   .segment_b = -1,
+                   .note = note};
+    if (estimated && f->level == LIMIT_STOP) f->level = LIMIT_CAUTION;
+    if (f->level > out->worst || (f->level == out->worst && out->reason >= 0 &&
+                                  f->margin < out->finding[out->reason].margin))
+        out->reason = out->count;
+    if (f->level > out->worst) out->worst = f->level;
+    out->count++;
+    return f;
+}
+
+bool judge_landmark(const judge *j, const plan_moves *m, const char *label, double out[3])
+{
+    const landmarks *l = &j->prepared->points;
+    const landmark *p = landmarks_find(l, label);
+    if (!p) return false;
+    rigid_apply(&m->move[j->carrier[p - l->point]], p->xyz, out);
+    return true;
+}
+
+/* The bone that each landmark lies on, or is nearest to. */
+static void find_carriers(judge *j)
+{
+    const landmarks *l = &j->prepared->points;
+    j->carrier = NEW_ARRAY(int, l->count);
+    for (int32_t i = 0; i < l->count; i++) {
+        double least = HUGE_VAL;
+        for (int s = 0; s < SEGMENT_COUNT; s++) {
+            double d = j->body[s] ? distance_tree_between(clash_body_tree(j->body[s]), l->point[i].xyz, 0, least, NULL) : HUGE_VAL;
+            if (d >= least) continue;
+            least = d;
+            j->carrier[i] = s;
+        }
+    }
+}
+
+/* In occlusion the cusps of the first molars overlap by 1 to 2 mm. */
+static void find_bite(judge *j)
+{
+    const double apart_mm = 3;
+    static const char *const pair[3][2] = {{"U6_L", "L6_L"}, {"U6_R", "L6_R"}, {"U1", "L1"}};
+    const landmarks *l = &j->prepared->points;
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < (count ? 2 : 3); i++) { /* incisors only where no molars are */
+        const landmark *upper = landmarks_find(l, pair[i][0]), *lower = landmarks_find(l, pair[i][1]);
+        double d[3];
+        if (!upper || !lower) continue;
+        vec_sub(upper->xyz, lower->xyz, d);
+        sum += vec_dot(d, j->prepared->frame.up);
+        count++;
+    }
+    j->jaws_apart = count && sum / count > apart_mm;
+}
+
+/* Where any bone may come to that a plan moves: the skull elsewhere is left out. */
+static void find_reach(const prepared *p, double box[6])
+{
+    const double reach_mm = 25;
+    for (int c = 0; c < 3; c++) {
+        box[c] = HUGE_VAL;
+        box[3 + c] = -HUGE_VAL;
+    }
+    for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++) {
+        double low[3], high[3];
+        if (!p->segments.part[s].triangle_count) continue;
+        surface_bounds(&p->segments.part[s], low, high);
+        for (int c = 0; c < 3; c++) {
+            box[c] = fmin(box[c], low[c] - reach_mm);
+            box[3 + c] = fmax(box[3 + c], high[c] + reach_mm);
+        }
+    }
+}
+
+static bool make_bodies(judge *j, err *e)
+{
+    double box[6];
+    find_reach(j->prepared, box);
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        const surface *part = &j->prepared->segments.part[s];
+        clash_params p = clash_params_default();
+        if (s == SEGMENT_CRANIUM) p.box = box;
+        uint8_t *kind = NULL;
+        if (!part->triangle_count) continue;
+        if (s == SEGMENT_CRANIUM || s == SEGMENT_DISTAL) p.cell_mm = 0; /* never the smaller one of a cut */
+        if (s == SEGMENT_MAXILLA || s == SEGMENT_DISTAL) kind = judge_crowns(j->prepared, (segment_id)s, &j->no_crowns);
+        bool ok = clash_body_make(part, kind, &p, &j->body[s], e);
+        free(kind);
+        if (!ok) return err_prefix(e, "the %s segment", segment_name((segment_id)s));
+    }
+    return true;
+}
+
+bool judge_create(const case_file *c, const prepared *p, judge **out, err *e)
+{
+    judge *j = NEW_ARRAY(judge, 1);
+    j->patient = c;
+    j->prepared = p;
+    find_bite(j);
+    if (!make_bodies(j, e)) {
+        judge_free(&j);
+        return false;
+    }
+    judge_bones_make(j);
+    find_carriers(j);
+    judge_nerve_make(j);
+    judge_teeth_make(j);
+    *out = j;
+    return true;
+}
+
+void judge_free(judge **j)
+{
+    if (!*j) return;
+    judge_bones_free(*j);
+    for (int s = 0; s < SEGMENT_COUNT; s++) clash_body_free(&(*j)->body[s]);
+    free((*j)->carrier);
+    free((*j)->bite);
+    free(*j);
+    *j = NULL;
+}
+
+void judge_plan(const judge *j, const plan_moves *m, judgement *out)
+{
+    out->count = 0;
+    out->worst = LIMIT_NOT_JUDGED;
+    out->reason = -1;
+    judge_moves(j, m, out);
+    judge_bones(j, m, out);
+    judge_nerve(j, m, out);
+    judge_teeth(j, m, out);
+    judge_bite(j, m, out);
+    judge_cuts(j, out);
+}

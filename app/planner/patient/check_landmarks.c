@@ -1,0 +1,176 @@
+#include "app/planner/patient/check.h"
+#include "app/planner/patient/landmark_needs.h"
+#include "geometry/frame.h"
+#include "geometry/mem.h"
+#include "geometry/nearest.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* All of the labels in `words`, separated by spaces, are there. */
+static bool all_there(const landmarks *l, const char *words)
+{
+    char copy[128];
+    snprintf(copy, sizeof copy, "%s", words);
+    for (char *save, *w = strtok_r(copy, " ", &save); w; w = strtok_r(NULL, " ", &save))
+        if (!landmarks_find(l, w)) return false;
+    return true;
+}
+
+static bool is_missing(const landmark_row *r, const landmarks *l)
+{
+    return !landmarks_find(l, r->label) && !(r->instead && all_there(l, r->instead));
+}
+
+static void check_set(const case_file *c, const landmarks *l, issue_list *issues)
+{
+    for (int i = 0; i < landmark_row_count; i++) {
+        const landmark_row *r = &landmark_rows[i], *next = r + 1;
+        char both[2 * LANDMARK_LABEL_SIZE];
+        if (!is_missing(r, l)) continue;
+        snprintf(both, sizeof both, "%s", r->label);
+        if (i + 1 < landmark_row_count && !strcmp(next->help, r->help) && is_missing(next, l)) {
+            snprintf(both, sizeof both, "%s, %s", r->label, next->label); /* left and right in one line */
+            i++;
+        }
+        const char *are = strchr(both, ',') ? "are" : "is";
+        if (landmark_is_needed(r, c) && r->instead && strstr(both, r->instead))
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both,
+                      "are missing, one of them is needed (%s)", r->help);
+        else if (landmark_is_needed(r, c))
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both, "%s missing (%s)%s%s%s", are,
+                      r->help, r->instead ? "; " : "", r->instead ? r->instead : "",
+                      r->instead ? " would do as well" : "");
+        else if (r->lost && !r->instead)
+            issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, both, "is missing (%s); lost: %s",
+                      r->help, r->lost);
+    }
+    char unknown[600] = "";
+    int count = 0;
+    for (int32_t i = 0; i < l->count; i++) {
+        bool known = false;
+        for (int k = 0; k < landmark_row_count && !known; k++)
+            known = !strcmp(landmark_rows[k].label, l->point[i].label);
+        if (known) continue;
+        size_t used = strlen(unknown);
+        snprintf(unknown + used, sizeof unknown - used, "%s%s", count++ ? ", " : "", l->point[i].label);
+    }
+    if (count)
+        issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, NULL, "%d unknown labels are ignored: %s",
+                  count, unknown);
+}
+
+/* The surface that should carry the landmark. Teeth that are not a file of their own are part of the bone. */
+static case_surface carrier(const landmark_row *r, const check_found *found)
+{
+    if (r->on == CASE_UPPER_TEETH && !found->mesh[r->on].vertex_count) return CASE_SKULL;
+    if (r->on == CASE_LOWER_TEETH && !found->mesh[r->on].vertex_count) return CASE_MANDIBLE;
+    return r->on;
+}
+
+/* A landmark far from its surface is a slip of the hand; many of them belong to another patient, frame or
+ * unit. */
+static void check_distance_to(const case_file *c, const check_found *found, case_surface on,
+                              issue_list *issues)
+{
+    enum { MANY = 3 };
+    const double doubtful_mm = 5, wrong_mm = 50;
+    nearest *tree = NULL;
+    err e = {0};
+    char far[200] = "";
+    int wrong = 0, all = 0;
+    if (!nearest_create(&found->mesh[on], &tree, &e)) {
+        issue_add_err(issues, ISSUE_ERROR, &e, c->surface[on]);
+        return;
+    }
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < landmark_row_count; i++) {
+            const landmark_row *r = &landmark_rows[i];
+            const landmark *p = landmarks_find(&found->points, r->label);
+            if (!p || carrier(r, found) != on) continue;
+            double d = nearest_point(tree, p->xyz, NULL, NULL);
+            if (pass == 0) {
+                size_t used = strlen(far);
+                all++;
+                if (d <= wrong_mm) continue;
+                snprintf(far + used, sizeof far - used, "%s%s", wrong++ ? ", " : "", r->label);
+            } else if (d > doubtful_mm && (wrong < MANY || d <= wrong_mm)) {
+                issue_add(issues, d > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0,
+                          r->label, "lies %.1f mm from the %s; it should lie on it", d,
+                          case_surface_name(on));
+            }
+        }
+    }
+    if (wrong >= MANY)
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, NULL,
+                  "%d of %d landmarks lie more than %g mm from the %s; are both of one patient, in one frame "
+                  "and in mm? (%s)",
+                  wrong, all, wrong_mm, case_surface_name(on), far);
+    nearest_destroy(&tree);
+}
+
+static void check_sides(const case_file *c, const landmarks *l, issue_list *issues)
+{
+    int pairs = 0, swapped = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int32_t i = 0; i < l->count; i++) {
+            char other[LANDMARK_LABEL_SIZE];
+            const landmark *left = &l->point[i];
+            size_t n = strlen(left->label);
+            if (n < 3 || strcmp(left->label + n - 2, "_L")) continue;
+            strcpy(other, left->label);
+            other[n - 1] = 'R';
+            const landmark *right = landmarks_find(l, other);
+            if (!right) continue;
+            bool wrong = left->xyz[0] < right->xyz[0];
+            pairs += pass == 0;
+            swapped += pass == 0 && wrong;
+            if (pass && wrong &&
+                swapped < pairs) /* all of them: the head is turned, the frame's own message says so */
+                issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, left->label,
+                          "lies to the right of %s (x = %.1f and %.1f mm, +x is the patient's left); are the "
+                          "two labels swapped?",
+                          other, left->xyz[0], right->xyz[0]);
+        }
+    }
+}
+
+static void check_frame(const case_file *c, check_found *found, issue_list *issues)
+{
+    const double uneven_mm = 4; /* of four points measured on a head: 1 to 2 mm */
+    const landmarks *l = &found->points;
+    head_frame f;
+    err e = {0};
+    bool points = landmarks_find(l, "Po_L") && landmarks_find(l, "Po_R") &&
+                  (landmarks_find(l, "Or_L") || landmarks_find(l, "Or_R"));
+    if (!points) return; /* already named as missing */
+    found->has_frame = head_frame_from_landmarks(l, &f, &e);
+    if (!found->has_frame) {
+        issue_add(issues, ISSUE_ERROR, e.code, c->landmarks, 0, NULL, "%s", e.text);
+        return;
+    }
+    found->frame_residual_mm = f.residual_mm;
+    if (f.residual_mm > uneven_mm)
+        issue_add(issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, NULL,
+                  "porions and orbitales lie up to %.1f mm off one plane; is one of them misplaced?",
+                  f.residual_mm);
+}
+
+void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
+{
+    err e = {0};
+    int32_t skipped = 0;
+    if (!*c->landmarks) return;
+    if (!landmarks_read(c->landmarks, &found->points, &skipped, &e)) {
+        issue_add_err(issues, ISSUE_ERROR, &e, c->landmarks);
+        return;
+    }
+    if (skipped)
+        issue_add(issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, NULL,
+                  "%d points are not placed (positionStatus is not \"defined\") and are ignored", skipped);
+    check_set(c, &found->points, issues);
+    check_frame(c, found, issues);
+    check_sides(c, &found->points, issues);
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++)
+        if (found->mesh[i].vertex_count && !found->wrong_size[i])
+            check_distance_to(c, found, (case_surface)i, issues);
+}

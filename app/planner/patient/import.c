@@ -1,0 +1,235 @@
+#include "app/planner/patient/import.h"
+#include "app/planner/patient/landmark_needs.h"
+#include "geometry/frame.h"
+#include "geometry/mem.h"
+#include "geometry/repair.h"
+#include "geometry/vec.h"
+#include "geometry/write_whole.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* A head's skin, from crown to neck, measures 250 to 450 mm corner to corner; a cropped face less. */
+static const double head_least_mm = 150, head_most_mm = 600;
+
+import_params import_params_default(void)
+{
+    return (import_params){.skin_hu = -300, .seal_mm = 8, .mesh = label_surface_params_default()};
+}
+
+void import_result_free(import_result *r)
+{
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) surface_free(&r->part[i].mesh);
+    landmarks_free(&r->points);
+    *r = (import_result){0};
+}
+
+bool import_is_mesh_name(const char *text)
+{
+    static const char *const endings[] = {".ply", ".off", ".stl", ".obj", ".gltf", ".glb"};
+    size_t n = strlen(text);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        size_t k = strlen(endings[i]);
+        if (n > k && !strcasecmp(text + n - k, endings[i])) return true;
+    }
+    return false;
+}
+
+static bool measure(import_part *part, err *e)
+{
+    surface *s = &part->mesh;
+    double low[3], high[3];
+    int32_t *component;
+    if (!surface_check(s, e)) return err_prefix(e, "%s", part->source);
+    surface_bounds(s, low, high);
+    part->diagonal_mm = vec_distance(low, high);
+    part->area_mm2 = surface_area(s);
+    surface_edge_census(s, &part->open_edges, &part->crowded_edges);
+    part->holes = part->open_edges ? surface_hole_count(s) : 0;
+    part->volume_mm3 = part->open_edges ? 0 : surface_volume(s);
+    part->components = surface_components(s, &component);
+    free(component);
+    return repair_count_self_intersections(s, IMPORT_INTERSECTIONS_MOST, &part->self_intersections, e) ||
+           err_prefix(e, "%s", part->source);
+}
+
+static bool is_gltf(const char *path)
+{
+    size_t n = strlen(path);
+    return (n > 5 && !strcasecmp(path + n - 5, ".gltf")) || (n > 4 && !strcasecmp(path + n - 4, ".glb"));
+}
+
+static bool read_mesh(const import_params *p, const char *path, import_part *part, issue_list *notes, err *e)
+{
+    surface raw;
+    if (!mesh_read_surface(path, p->space, &raw, &part->read, e)) return false;
+    mesh_weld(&raw, &part->read);
+    if (!raw.triangle_count) {
+        surface_free(&raw);
+        return err_at(e, ERR_INPUT, path, 0, NULL, "has no triangle left after welding");
+    }
+    uint8_t *keep = NEW_ARRAY(uint8_t, raw.triangle_count);
+    memset(keep, 1, (size_t)raw.triangle_count);
+    part->mesh = surface_select(&raw, keep); /* drops unused vertices */
+    free(keep);
+    surface_free(&raw);
+    snprintf(part->source, sizeof part->source, "%s", path);
+    double scale = p->unit_mm > 0 ? p->unit_mm / (is_gltf(path) ? 1000 : 1) : 1; /* glTF was read as metres */
+    for (int64_t i = 0; i < 3 * (int64_t)part->mesh.vertex_count; i++) part->mesh.xyz[i] *= scale;
+    if (part->read.tagged && p->space != MESH_SPACE_FROM_FILE &&
+        part->read.ras != (p->space == MESH_SPACE_RAS))
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
+                  "the file says SPACE=%s, which wins over --frame", part->read.ras ? "RAS" : "LPS");
+    return true;
+}
+
+/* A wrong unit is a question to the user, never a guess. */
+static bool check_size(const import_params *p, const import_result *r, err *e)
+{
+    static const struct {
+        double mm;
+        const char *word, *option;
+    } unit[] = {{1000, "metres", "m"}, {10, "centimetres", "cm"}};
+    const import_part *skin = &r->part[CASE_SKIN];
+    double d = skin->diagonal_mm;
+    if (!skin->mesh.vertex_count || (d >= head_least_mm && d <= head_most_mm)) return true;
+    for (int i = 0; i < 2 && !(p->unit_mm > 0); i++)
+        if (d * unit[i].mm >= head_least_mm && d * unit[i].mm <= head_most_mm)
+            return err_at(e, ERR_INPUT, skin->source, 0, NULL,
+                          "the skin measures %.3g corner to corner: is it in %s? If so, say --unit %s", d,
+                          unit[i].word, unit[i].option);
+    return err_at(e, ERR_INPUT, skin->source, 0, NULL,
+                  "the skin measures %.4g mm corner to corner; a head measures %g to %g mm", d, head_least_mm,
+                  head_most_mm);
+}
+
+/* Bones far outside the skin's box: of another patient, frame or unit. */
+static bool check_together(const import_result *r, err *e)
+{
+    const double margin_mm = 30;
+    double low[3], high[3], a[3], b[3];
+    if (!r->part[CASE_SKIN].mesh.vertex_count) return true;
+    surface_bounds(&r->part[CASE_SKIN].mesh, low, high);
+    for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
+        const import_part *part = &r->part[i];
+        if (!part->mesh.vertex_count) continue;
+        surface_bounds(&part->mesh, a, b);
+        for (int c = 0; c < 3; c++)
+            if (a[c] < low[c] - margin_mm || b[c] > high[c] + margin_mm)
+                return err_at(
+                    e, ERR_GEOMETRY, part->source, 0, NULL,
+                    "the %s reaches %.0f mm beyond the skin's box along %c: are both of one patient, in one "
+                    "frame and unit?",
+                    case_surface_name((case_surface)i), fmax(low[c] - a[c], b[c] - high[c]), 'x' + c);
+    }
+    return true;
+}
+
+static bool check_complete(const import_result *r, err *e)
+{
+    for (int i = CASE_SKIN; i <= CASE_MANDIBLE; i++)
+        if (!r->part[i].mesh.vertex_count)
+            return err_set(e, ERR_USAGE, "a case needs a %s: name it with --%s%s",
+                           case_surface_name((case_surface)i), case_surface_name((case_surface)i),
+                           i == CASE_SKIN ? ", or a CT with --ct" : "");
+    return true;
+}
+
+static void note_landmarks(import_result *r, issue_list *notes)
+{
+    head_frame frame;
+    err why = {0};
+    char missing[512] = "";
+    size_t n = 0;
+    for (int i = 0; i < landmark_row_count; i++) {
+        const landmark_row *row = &landmark_rows[i];
+        if (row->need != NEED_ALWAYS || row->instead || landmarks_find(&r->points, row->label)) continue;
+        n += (size_t)snprintf(missing + n, n < sizeof missing ? sizeof missing - n : 0, " %s", row->label);
+    }
+    if (!r->has_points)
+        issue_add(
+            notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL,
+            "no landmarks: place at least%s in 3D Slicer and save them as landmarks.mrk.json in the case",
+            missing);
+    else if (*missing)
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL, "landmarks still missing:%s", missing);
+    else if (!head_frame_from_landmarks(&r->points, &frame, &why))
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL, "%s", why.text);
+    if (r->points_skipped)
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL,
+                  "%d landmarks without a defined position were left out", r->points_skipped);
+}
+
+bool import_read(const import_params *p, const task *watch, import_result *out, issue_list *notes,
+                 err *e)
+{
+    import_result r = {.contacts = -1};
+    bool good = true;
+    if (p->ct && p->from[CASE_SKIN])
+        return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
+    for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
+        if (!p->from[i] || (p->labels && !import_is_mesh_name(p->from[i]))) continue;
+        task_progress(watch, case_surface_name((case_surface)i), -1);
+        good = read_mesh(p, p->from[i], &r.part[i], notes, e);
+    }
+    if (good && (p->labels || p->ct)) good = import_labels(p, watch, &r, notes, e);
+    if (good) good = check_complete(&r, e);
+    for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
+        if (!r.part[i].mesh.vertex_count) continue;
+        task_progress(watch, "measuring", (double)i / CASE_SURFACE_COUNT);
+        good = measure(&r.part[i], e);
+        if (good && task_interrupted(watch)) good = err_set(e, ERR_INTERRUPTED, "interrupted");
+    }
+    if (good) good = check_size(p, &r, e) && check_together(&r, e);
+    if (good && p->landmarks) {
+        good = landmarks_read(p->landmarks, &r.points, &r.points_skipped, e);
+        r.has_points = good;
+    }
+    if (!good) {
+        import_result_free(&r);
+        return false;
+    }
+    note_landmarks(&r, notes);
+    *out = r;
+    return true;
+}
+
+static bool write_case(const import_params *p, const import_result *r, const char *target, const char *folder,
+                       err *e)
+{
+    char path[4096];
+    json_t *surfaces = json_object();
+    bool good = true;
+    for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
+        if (!r->part[i].mesh.vertex_count) continue;
+        const char *word = case_surface_name((case_surface)i);
+        char file[64];
+        snprintf(file, sizeof file, "%s.ply", word);
+        snprintf(path, sizeof path, "%s/%s", folder, file);
+        json_object_set_new(surfaces, word, json_string(file));
+        good = mesh_write_surface(&r->part[i].mesh, path, e);
+    }
+    snprintf(path, sizeof path, "%s/landmarks.mrk.json", folder);
+    if (good && r->has_points) good = landmarks_write(&r->points, path, e);
+    const char *slash = strrchr(target, '/'), *name = p->name ? p->name : slash ? slash + 1 : target;
+    json_t *root = json_pack("{s:i, s:s, s:s, s:s, s:o, s:s}", "gnathos", 1, "name", name, "units", "mm",
+                             "frame", "LPS", "surfaces", surfaces, "landmarks", "landmarks.mrk.json");
+    if (!root) {
+        json_decref(surfaces);
+        return err_set(e, ERR_USAGE, "the name of the case is not valid UTF-8");
+    }
+    snprintf(path, sizeof path, "%s/case.json", folder);
+    if (good) good = json_file_write(root, path, e);
+    json_decref(root);
+    return good;
+}
+
+bool import_write(const import_params *p, const import_result *r, const char *folder, err *e)
+{
+    whole_folder w;
+    if (!whole_folder_open(folder, &w, e)) return false;
+    if (write_case(p, r, w.path, w.temporary, e)) return whole_folder_close(&w, e);
+    whole_folder_abandon(&w);
+    return false;
+}

@@ -1,0 +1,238 @@
+#include "app/planner/patient/prepared.h"
+#include "app/planner/patient/prepared_report.h"
+#include "app/planner/store/pack_file.h"
+#include "geometry/mem.h"
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+/* Raise it whenever the way from case to tissue changes: old files are then made anew. */
+static const double format = 2;
+
+static const double skin_reach_mm = 2; /* of a skin vertex from the tets that may carry it */
+
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
+{
+    content_hash *h = content_hash_start();
+    content_hash_number(h, "format", format);
+    content_hash_text(h, "version", GNATHOS_VERSION);
+    bool ok = true;
+    for (int s = 0; s < CASE_SURFACE_COUNT; s++)
+        ok = ok && content_hash_file(h, case_surface_name((case_surface)s), c->surface[s], e);
+    ok = ok && content_hash_file(h, "landmarks", c->landmarks, e) &&
+         content_hash_file(h, "planes", c->planes, e);
+    content_hash_number(h, "frame", c->frame);
+    content_hash_bytes(h, &c->tissue, sizeof c->tissue);
+    content_hash_bytes(h, &c->cuts, sizeof c->cuts);
+    for (int i = 0; i < c->osteotomy_count; i++) {
+        const case_osteotomy *o = &c->osteotomy[i];
+        content_hash_number(h, "cut", o->cut);
+        content_hash_text(h, "plane", o->plane);
+        content_hash_number(h, "segment", o->segment);
+    }
+    content_hash_end(h, text);
+    return ok;
+}
+
+/* ---- to and from the file: every array under its name ---- */
+
+static void put_surface(pack_file *f, const char *name, const surface *s)
+{
+    char key[PACK_NAME_SIZE];
+    snprintf(key, sizeof key, "%.24s.xyz", name);
+    pack_put(f, key, s->xyz, 3 * (size_t)s->vertex_count * sizeof *s->xyz);
+    snprintf(key, sizeof key, "%.24s.tri", name);
+    pack_put(f, key, s->tri, 3 * (size_t)s->triangle_count * sizeof *s->tri);
+    snprintf(key, sizeof key, "%.24s.rgb", name);
+    if (s->rgb) pack_put(f, key, s->rgb, 3 * (size_t)s->vertex_count);
+}
+
+static bool take_surface(const pack_file *f, const char *name, surface *s)
+{
+    char key[PACK_NAME_SIZE];
+    size_t vertices = 0, triangles = 0, colours = 0;
+    snprintf(key, sizeof key, "%.24s.xyz", name);
+    s->xyz = pack_take(f, key, 3 * sizeof *s->xyz, &vertices);
+    snprintf(key, sizeof key, "%.24s.tri", name);
+    s->tri = pack_take(f, key, 3 * sizeof *s->tri, &triangles);
+    snprintf(key, sizeof key, "%.24s.rgb", name);
+    s->rgb = pack_take(f, key, 3, &colours);
+    s->vertex_count = (int32_t)vertices;
+    s->triangle_count = (int32_t)triangles;
+    return s->xyz && s->tri && (!s->rgb || colours == vertices);
+}
+
+static void part_key(int segment, char key[PACK_NAME_SIZE])
+{
+    snprintf(key, PACK_NAME_SIZE, "part.%s", segment_name((segment_id)segment));
+}
+
+static void fill_pack(const prepared *p, pack_file *f)
+{
+    const tissue *t = &p->tissue;
+    size_t nodes = (size_t)t->mesh.vertex_count, tets = (size_t)t->mesh.tet_count,
+           pairs = (size_t)t->attach.pair_count, points = (size_t)p->skin_on_tissue.point_count;
+    char key[PACK_NAME_SIZE], *report = json_dumps(p->report, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    pack_put(f, "landmarks", p->points.point, (size_t)p->points.count * sizeof *p->points.point);
+    pack_put(f, "frame", &p->frame, sizeof p->frame);
+    put_surface(f, "skin", &p->skin);
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        part_key(s, key);
+        put_surface(f, key, &p->segments.part[s]);
+    }
+    put_surface(f, "kerf", &p->segments.kerf);
+    pack_put(f, "node.xyz", t->mesh.xyz, 3 * nodes * sizeof(double));
+    pack_put(f, "tet.node", t->mesh.tet, 4 * tets * sizeof(int32_t));
+    pack_put(f, "tet.region", t->mesh.region, tets * sizeof(int32_t));
+    pack_put(f, "node.side", t->side, nodes);
+    pack_put(f, "node.kind", t->attach.kind, nodes);
+    pack_put(f, "node.segment", t->attach.segment, nodes * sizeof(int32_t));
+    pack_put(f, "node.normal", t->attach.normal, 3 * nodes * sizeof(double));
+    pack_put(f, "pair.node", t->attach.pair, 2 * pairs * sizeof(int32_t));
+    pack_put(f, "pair.normal", t->attach.pair_normal, 3 * pairs * sizeof(double));
+    pack_put(f, "lips", &t->lips, sizeof t->lips);
+    pack_put(f, "skin.tet", p->skin_on_tissue.tet, points * sizeof(int32_t));
+    pack_put(f, "skin.weight", p->skin_on_tissue.weight, 4 * points * sizeof(double));
+    pack_put(f, "report", report, strlen(report) + 1);
+    free(report);
+}
+
+static bool take_tissue(const pack_file *f, tissue *t)
+{
+    size_t n[8] = {0}, one = 0;
+    t->mesh.xyz = pack_take(f, "node.xyz", 3 * sizeof(double), &n[0]);
+    t->mesh.tet = pack_take(f, "tet.node", 4 * sizeof(int32_t), &n[1]);
+    t->mesh.region = pack_take(f, "tet.region", sizeof(int32_t), &n[2]);
+    t->side = pack_take(f, "node.side", 1, &n[3]);
+    t->attach.kind = pack_take(f, "node.kind", 1, &n[4]);
+    t->attach.segment = pack_take(f, "node.segment", sizeof(int32_t), &n[5]);
+    t->attach.normal = pack_take(f, "node.normal", 3 * sizeof(double), &n[6]);
+    t->attach.pair = pack_take(f, "pair.node", 2 * sizeof(int32_t), &n[7]);
+    size_t pairs = 0;
+    t->attach.pair_normal = pack_take(f, "pair.normal", 3 * sizeof(double), &pairs);
+    lip_sheet *lips = pack_take(f, "lips", sizeof *lips, &one);
+    if (lips) t->lips = *lips;
+    free(lips);
+    t->mesh.vertex_count = t->attach.node_count = (int32_t)n[0];
+    t->mesh.tet_count = (int32_t)n[1];
+    t->attach.pair_count = (int32_t)n[7];
+    err ignored = {0};
+    return t->mesh.xyz && t->mesh.tet && t->mesh.region && t->side && t->attach.kind && t->attach.segment &&
+           t->attach.normal && t->attach.pair && t->attach.pair_normal && one == 1 && n[2] == n[1] &&
+           n[3] == n[0] && n[4] == n[0] && n[5] == n[0] && n[6] == n[0] && pairs == n[7] &&
+           tetmesh_check(&t->mesh, &ignored);
+}
+
+static bool take_pack(const pack_file *f, prepared *p)
+{
+    size_t count = 0, one = 0, weights = 0;
+    char key[PACK_NAME_SIZE];
+    p->points.point = pack_take(f, "landmarks", sizeof *p->points.point, &count);
+    p->points.count = (int32_t)count;
+    head_frame *frame = pack_take(f, "frame", sizeof *frame, &one);
+    if (frame) p->frame = *frame;
+    free(frame);
+    bool ok = p->points.point && one == 1 && take_surface(f, "skin", &p->skin) &&
+              take_surface(f, "kerf", &p->segments.kerf) && take_tissue(f, &p->tissue);
+    for (int s = 0; s < SEGMENT_COUNT; s++) {
+        part_key(s, key);
+        ok = take_surface(f, key, &p->segments.part[s]) && ok;
+    }
+    p->skin_on_tissue.tet = pack_take(f, "skin.tet", sizeof(int32_t), &count);
+    p->skin_on_tissue.weight = pack_take(f, "skin.weight", 4 * sizeof(double), &weights);
+    p->skin_on_tissue.point_count = (int32_t)count;
+    char *report = pack_take(f, "report", 1, &one);
+    if (report) p->report = json_loads(report, 0, NULL);
+    free(report);
+    return ok && p->skin_on_tissue.tet && p->skin_on_tissue.weight && weights == count &&
+           (int32_t)count == p->skin.vertex_count && p->report;
+}
+
+static bool make(const case_file *c, const task *watch, prepared *out, err *e)
+{
+    prepared p = {0};
+    anatomy a = {0};
+    tissue_report r = {0};
+    double start = seconds();
+    if (!anatomy_make(c, true, watch, &a, e)) return false;
+    double cut = seconds();
+    task_progress(watch, "meshing the soft tissue", 0.4);
+    surface bones = surface_joined(&a.skull, &a.mandible);
+    tissue_input in = {&a.closed_skin, &bones, &a.segments, &a.points, &a.frame};
+    bool ok = tissue_make(&in, &c->tissue, &p.tissue, &r, e);
+    surface_free(&bones);
+    if (ok) {
+        p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
+        r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;
+        r.skin_gap_max_mm = p.skin_on_tissue.max_gap_mm;
+        p.report = prepared_report(&a, &r, cut - start, seconds() - cut);
+        p.frame = a.frame;
+        p.points = a.points;
+        p.skin = a.skin;
+        p.segments = a.segments;
+        a.points = (landmarks){0};
+        a.skin = (surface){0};
+        a.segments = (segments){0};
+        *out = p;
+    }
+    anatomy_free(&a);
+    return ok;
+}
+
+bool prepared_get(const case_file *c, const char *cache, const task *watch,
+                  prepared *out, err *e)
+{
+    char hash[HASH_TEXT_SIZE], folder[FIELD_PATH_SIZE + 16], path[FIELD_PATH_SIZE + 64];
+    if (!prepared_hash(c, hash, e)) return false;
+    snprintf(folder, sizeof folder, "%s%s", cache ? cache : c->folder, cache ? "" : "/prepared");
+    snprintf(path, sizeof path, "%s/%.16s.pack", folder, hash);
+    pack_file f = {0};
+    prepared p = {0};
+    err unreadable = {0};
+    if (pack_read(path, &f, &unreadable)) {
+        p.reused = take_pack(&f, &p);
+        pack_free(&f);
+        if (!p.reused) prepared_free(&p);
+    }
+    if (!p.reused) {
+        if (!make(c, watch, &p, e)) return false;
+        if (mkdir(folder, 0777) && errno != EEXIST) {
+            prepared_free(&p);
+            return err_at(e, ERR_RESOURCE, folder, 0, NULL,
+                          "cannot be made (%s); --cache names another folder for what "
+                          "is prepared once",
+                          strerror(errno));
+        }
+        fill_pack(&p, &f);
+        bool ok = pack_write(&f, path, e);
+        pack_free(&f);
+        if (!ok) {
+            prepared_free(&p);
+            return false;
+        }
+    }
+    memcpy(p.hash, hash, sizeof hash);
+    *out = p;
+    return true;
+}
+
+void prepared_free(prepared *p)
+{
+    landmarks_free(&p->points);
+    surface_free(&p->skin);
+    segments_free(&p->segments);
+    tissue_free(&p->tissue);
+    embedding_free(&p->skin_on_tissue);
+    if (p->report) json_decref(p->report);
+    *p = (prepared){0};
+}

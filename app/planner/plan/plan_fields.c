@@ -1,0 +1,91 @@
+/* The fields of a plan, one line each. */
+#include "app/planner/plan/plan_file.h"
+#include <math.h>
+
+#define PLAN(member, unit_, low_, high_, help_) NUMBER(plan_file, member, unit_, low_, high_, help_)
+#define SEGMENT(member, unit_, low_, high_, help_) NUMBER(plan_segment, member, unit_, low_, high_, help_)
+#define NOT_BUILT "Not built yet: only 0 is accepted."
+
+static const field rows[] = {
+    {.name = "gnathos",
+     .kind = FIELD_VERSION,
+     .offset = offsetof(plan_file, version),
+     .required = true,
+     .help = "Version of the format."},
+    {.name = "name",
+     .kind = FIELD_TEXT,
+     .offset = offsetof(plan_file, name),
+     .help = "Shown in results; the file's name where absent."},
+    PLAN(maxilla_advance_mm, "mm", FROM(-100), TO(100), "Maxilla forwards (backwards where negative)."),
+    PLAN(maxilla_impaction_mm, "mm", FROM(-100), TO(100), "Maxilla upwards (downwards where negative)."),
+    PLAN(mandible_advance_mm, "mm", FROM(-100), TO(100), "Distal segment of the mandible forwards."),
+    PLAN(chin_advance_mm, "mm", FROM(-100), TO(100), "Chin forwards, relative to the distal segment."),
+    {.name = "override",
+     .kind = FIELD_TEXT,
+     .offset = offsetof(plan_file, override),
+     .help = "The reason why this plan may go beyond the case's limits; shown in results."},
+    {.name = "segments",
+     .kind = FIELD_OTHER,
+     .words = "an object with maxilla, distal, proximal_left, proximal_right, chin",
+     .help = "Any rigid move of a segment, in place of the short fields above."},
+    {.name = "load_steps",
+     .kind = FIELD_COUNT,
+     .offset = offsetof(plan_file, load_steps),
+     FROM(1),
+     TO(100),
+     .help = "Number of equal parts in which the bones are moved."},
+    PLAN(jaw.pitch_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
+    PLAN(jaw.yaw_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
+    PLAN(jaw.roll_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
+    PLAN(jaw.protrude_mm, "mm", FROM(-100), TO(100), NOT_BUILT),
+    {.name = "expressions",
+     .kind = FIELD_OTHER,
+     .words = "a list of six numbers from 0 to 1",
+     .help = NOT_BUILT},
+    PLAN(rest, NULL, FROM(0), TO(1), NOT_BUILT),
+};
+
+static const field segment_rows[] = {
+    {.name = "translate_mm",
+     .kind = FIELD_VEC3,
+     .offset = offsetof(plan_segment, translate_mm),
+     .unit = "mm",
+     FROM(-100),
+     TO(100),
+     .help = "Translation after the rotation, along the file's axes (LPS)."},
+    SEGMENT(pitch_deg, "deg", FROM(-90), TO(90),
+            "Rotation about the head's left axis; positive turns the front down."),
+    SEGMENT(yaw_deg, "deg", FROM(-90), TO(90),
+            "Rotation about the head's vertical; positive turns the front to the left."),
+    SEGMENT(roll_deg, "deg", FROM(-90), TO(90),
+            "Rotation about the head's front-back axis; positive turns the left side down."),
+    {.name = "pivot",
+     .kind = FIELD_OTHER,
+     .words = "the label of a landmark, or three numbers [x, y, z] in mm",
+     .help = "Where the rotation's axes meet; the segment's incisor, pogonion or condylion where absent."},
+    {.name = "matrix",
+     .kind = FIELD_OTHER,
+     .words = "a list of 16 numbers, row by row",
+     .help = "The whole move of the bone as a matrix (LPS, mm), in place of translation and angles."},
+    {.name = "file",
+     .kind = FIELD_FILE,
+     .offset = offsetof(plan_segment, file),
+     .help = "The whole move as a transform saved by 3D Slicer as text (.tfm), in place of all others."},
+};
+
+const field_table *plan_fields(void)
+{
+    static plan_file defaults;
+    static const field_table table = {"A plan, one set of bone moves:", rows, sizeof rows / sizeof rows[0],
+                                      &defaults};
+    defaults = plan_file_default();
+    return &table;
+}
+
+const field_table *plan_segment_fields(void)
+{
+    static const plan_segment defaults;
+    static const field_table table = {"Each segment in \"segments\":", segment_rows,
+                                      sizeof segment_rows / sizeof segment_rows[0], &defaults};
+    return &table;
+}

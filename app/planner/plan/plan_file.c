@@ -1,0 +1,232 @@
+#include "app/planner/plan/plan_file.h"
+#include "app/planner/store/suggest.h"
+#include "geometry/transform_file.h"
+#include <string.h>
+
+static const struct short_field {
+    const char *name;
+    segment_id segment;
+} short_fields[] = {{"maxilla_advance_mm", SEGMENT_MAXILLA},
+                    {"maxilla_impaction_mm", SEGMENT_MAXILLA},
+                    {"mandible_advance_mm", SEGMENT_DISTAL},
+                    {"chin_advance_mm", SEGMENT_CHIN}};
+enum { SHORT_COUNT = sizeof short_fields / sizeof short_fields[0], PLACE_SIZE = 128 };
+
+plan_file plan_file_default(void)
+{
+    return (plan_file){.version = 1, .load_steps = 4};
+}
+
+static const char *cut_for(segment_id s)
+{
+    return s == SEGMENT_MAXILLA ? "le_fort_1" : s == SEGMENT_CHIN ? "genioplasty" : "bsso";
+}
+
+/* A move of a piece that no cut frees is refused. */
+static void check_freed(const json_file *f, const case_file *c, segment_id s, const char *place,
+                        issue_list *issues)
+{
+    if (case_file_frees(c, s)) return;
+    fields_issue(f, place, issues,
+                 "moves the %s segment, which %s does not cut; add \"%s\" to its osteotomies",
+                 segment_name(s), c->path, cut_for(s));
+}
+
+static void read_pivot(const json_file *f, const json_t *v, const char *place, plan_segment *s,
+                       issue_list *issues)
+{
+    err e = {0};
+    const char *label = json_string_value(v);
+    if (json_is_array(v) && json_file_vec3(f, v, place, s->pivot_mm, &e))
+        s->has_pivot_point = true;
+    else if (label && *label && strlen(label) < LANDMARK_LABEL_SIZE)
+        strcpy(s->pivot, label);
+    else
+        fields_issue(f, place, issues, "must be the label of a landmark, or three numbers [x, y, z] in mm");
+}
+
+static void read_matrix(const json_file *f, const json_t *v, const char *place, plan_segment *s,
+                        issue_list *issues)
+{
+    err e = {0};
+    double m[16];
+    char got[96];
+    if (!json_is_array(v) || json_array_size(v) != 16) {
+        fields_issue(f, place, issues, "is %s; must be a list of 16 numbers, row by row",
+                     fields_value_words(v, got, sizeof got));
+        return;
+    }
+    for (size_t i = 0; i < 16; i++) {
+        const json_t *one = json_array_get(v, i);
+        if (!json_is_number(one)) {
+            fields_issue(f, place, issues, "number %zu is %s; must be a list of 16 numbers", i + 1,
+                         fields_value_words(one, got, sizeof got));
+            return;
+        }
+        m[i] = json_number_value(one);
+    }
+    if (!rigid_from_matrix(m, &s->motion, &e)) fields_issue(f, place, issues, "%s", e.text);
+}
+
+static void read_segment(const json_file *f, const json_t *o, segment_id id, plan_segment *s,
+                         issue_list *issues)
+{
+    char place[PLACE_SIZE], at[64];
+    const char *const single[] = {"matrix", "file"};
+    err e = {0};
+    snprintf(at, sizeof at, "/segments/%s", segment_name(id));
+    if (!json_is_object(o)) {
+        fields_issue(f, at, issues, "must be an object { ... }");
+        return;
+    }
+    s->line = json_file_line(f, at);
+    fields_read(plan_segment_fields(), f, o, at, s, issues);
+    const json_t *pivot = json_object_get(o, "pivot");
+    s->form = FORM_ANGLES;
+    for (int i = 0; i < 2; i++) {
+        if (!json_object_get(o, single[i])) continue;
+        s->form = FORM_MATRIX;
+        snprintf(place, sizeof place, "%s/%s", at, single[i]);
+        const char *key;
+        json_t *value;
+        json_object_foreach((json_t *)o, key, value)
+        {
+            if (!strcmp(key, single[i]) || !strncmp(key, "//", 2)) continue;
+            fields_issue(f, place, issues, "stands beside \"%s\"; a %s is the whole move of its segment", key,
+                         single[i]);
+            return;
+        }
+    }
+    if (pivot) {
+        snprintf(place, sizeof place, "%s/pivot", at);
+        read_pivot(f, pivot, place, s, issues);
+    }
+    snprintf(place, sizeof place, "%s/matrix", at);
+    if (json_object_get(o, "matrix")) read_matrix(f, json_object_get(o, "matrix"), place, s, issues);
+    snprintf(place, sizeof place, "%s/file", at);
+    if (*s->file && !transform_read(s->file, &s->motion, &e)) fields_issue(f, place, issues, "%s", e.text);
+}
+
+static void read_segments(const json_file *f, const case_file *c, plan_file *p, issue_list *issues)
+{
+    const json_t *o = json_object_get(f->root, "segments");
+    const char *key, *names[SEGMENT_COUNT];
+    json_t *value;
+    char place[PLACE_SIZE];
+    for (int i = 0; i < SEGMENT_COUNT; i++) names[i] = segment_name((segment_id)i);
+    if (!o) return;
+    if (!json_is_object(o)) {
+        fields_issue(f, "/segments", issues, "must be an object { \"maxilla\": { ... } }");
+        return;
+    }
+    json_object_foreach((json_t *)o, key, value)
+    {
+        if (!strncmp(key, "//", 2)) continue;
+        int id = segment_from_name(key), near = suggest_nearest(key, names + 1, SEGMENT_COUNT - 1);
+        snprintf(place, sizeof place, "/segments/%.60s", key);
+        if (id == SEGMENT_CRANIUM)
+            fields_issue(f, place, issues, "the cranium never moves");
+        else if (id < 0 && near >= 0)
+            fields_issue(f, place, issues, "unknown segment; did you mean \"%s\"?", names[near + 1]);
+        else if (id < 0)
+            fields_issue(f, place, issues,
+                         "unknown segment; known are maxilla, distal, proximal_left, proximal_right, chin");
+        else {
+            for (int i = 0; i < SHORT_COUNT; i++)
+                if ((int)short_fields[i].segment == id && json_object_get(f->root, short_fields[i].name))
+                    fields_issue(f, place, issues, "the %s segment is moved by %s too; use one of the two",
+                                 key, short_fields[i].name);
+            check_freed(f, c, (segment_id)id, place, issues);
+            read_segment(f, value, (segment_id)id, &p->segment[id], issues);
+        }
+    }
+}
+
+static void read_short(const json_file *f, const case_file *c, plan_file *p, issue_list *issues)
+{
+    const double *const value[SHORT_COUNT] = {&p->maxilla_advance_mm, &p->maxilla_impaction_mm,
+                                              &p->mandible_advance_mm, &p->chin_advance_mm};
+    for (int i = 0; i < SHORT_COUNT; i++) {
+        char place[PLACE_SIZE];
+        snprintf(place, sizeof place, "/%s", short_fields[i].name);
+        if (!json_object_get(f->root, short_fields[i].name)) continue;
+        plan_segment *s = &p->segment[short_fields[i].segment];
+        if (s->form == FORM_NONE) *s = (plan_segment){.form = FORM_SHORT, .line = json_file_line(f, place)};
+        if (*value[i] != 0) check_freed(f, c, short_fields[i].segment, place, issues);
+    }
+}
+
+static void refuse_unbuilt(const json_file *f, const plan_file *p, issue_list *issues)
+{
+    const struct {
+        const char *place;
+        double value;
+    } control[] = {{"/jaw/pitch_deg", p->jaw.pitch_deg},
+                   {"/jaw/yaw_deg", p->jaw.yaw_deg},
+                   {"/jaw/roll_deg", p->jaw.roll_deg},
+                   {"/jaw/protrude_mm", p->jaw.protrude_mm},
+                   {"/rest", p->rest}};
+    for (size_t i = 0; i < sizeof control / sizeof control[0]; i++)
+        if (control[i].value != 0)
+            fields_issue(f, control[i].place, issues, "is %g; this control is not built yet, it must stay 0",
+                         control[i].value);
+    const json_t *list = json_object_get(f->root, "expressions");
+    if (!list) return;
+    if (!json_is_array(list) || json_array_size(list) != 6) {
+        fields_issue(f, "/expressions", issues, "must be a list of six numbers from 0 to 1");
+        return;
+    }
+    for (size_t i = 0; i < 6; i++) {
+        const json_t *v = json_array_get(list, i);
+        char place[PLACE_SIZE], got[96];
+        snprintf(place, sizeof place, "/expressions/%zu", i);
+        if (!json_is_number(v) || json_number_value(v) < 0 || json_number_value(v) > 1)
+            fields_issue(f, place, issues, "is %s; must be a number from 0 to 1",
+                         fields_value_words(v, got, sizeof got));
+        else if (json_number_value(v) != 0)
+            fields_issue(f, place, issues, "is %g; this control is not built yet, it must stay 0",
+                         json_number_value(v));
+    }
+}
+
+bool plan_file_read(const char *path, const case_file *c, plan_file *out, issue_list *issues)
+{
+    plan_file p = plan_file_default();
+    json_file f = {0};
+    err e = {0};
+    int errors = issue_count(issues, ISSUE_ERROR), from = issues->count;
+    if (strlen(path) >= FIELD_PATH_SIZE) {
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, NULL, 0, NULL,
+                  "the path of the plan has more than %d bytes", FIELD_PATH_SIZE - 1);
+        return false;
+    }
+    strcpy(p.path, path);
+    if (!json_file_read(path, &f, &e)) {
+        issue_add_err(issues, ISSUE_ERROR, &e, path);
+        return false;
+    }
+    if (!json_is_object(f.root)) {
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 1, NULL, "must be an object { ... }");
+    } else if (json_object_get(f.root, "surfaces")) {
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 1, NULL,
+                  "is a case, not a plan; a plan names moves of bones");
+    } else {
+        fields_read(plan_fields(), &f, f.root, "", &p, issues);
+        read_short(&f, c, &p, issues);
+        read_segments(&f, c, &p, issues);
+        refuse_unbuilt(&f, &p, issues);
+        const json_t *why = json_object_get(f.root, "override");
+        if (json_is_string(why) && strspn(json_string_value(why), " \t") == json_string_length(why))
+            fields_issue(&f, "/override", issues, "is empty; it must say why a limit may be exceeded");
+        issue_sort_by_line(issues, from);
+        if (!*p.name) {
+            const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path,
+                       *dot = strrchr(base, '.');
+            snprintf(p.name, sizeof p.name, "%.*s", dot && dot > base ? (int)(dot - base) : 200, base);
+        }
+    }
+    json_file_free(&f);
+    if (issue_count(issues, ISSUE_ERROR) > errors) return false;
+    *out = p;
+    return true;
+}

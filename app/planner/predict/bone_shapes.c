@@ -1,0 +1,50 @@
+#include "app/planner/predict/bone_shapes.h"
+#include "geometry/vec.h"
+#include <math.h>
+#include <string.h>
+
+/* Half a millimetre keeps the relief of crowns: smooth and exact distances differ by 0.04 mm on a cusp of 2 mm radius. */
+static const double grid_mm = 0.5, known_mm = 3;
+
+static double distance(const void *context, const double x[3], double grad[3], double *hess)
+{
+    distance_value v;
+    distance_field_at(context, x, hess != NULL, &v);
+    if (v.d == HUGE_VAL) return v.d;
+    vec_copy(v.grad, grad);
+    if (hess) memcpy(hess, v.hess, sizeof v.hess);
+    return v.d;
+}
+
+static bool leave(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
+                  double normal[3])
+{
+    return distance_field_leave(context, x, direction, reach_mm, hit, normal);
+}
+
+bool bone_shapes_make(const prepared *p, bone_shapes *out, err *e)
+{
+    *out = (bone_shapes){0};
+    for (int k = 0; k < SEGMENT_COUNT; k++) {
+        const surface *bone = &p->segments.part[k];
+        double low[3], high[3];
+        if (!bone->triangle_count) continue;
+        if (!nearest_create(bone, &out->tree[k], e)) {
+            bone_shapes_free(out);
+            return false;
+        }
+        surface_bounds(bone, low, high);
+        out->field[k] = distance_field_create(out->tree[k], low, high, grid_mm, known_mm);
+        out->shape[k] = (bone_shape){.context = out->field[k], .distance = distance, .leave = leave};
+    }
+    return true;
+}
+
+void bone_shapes_free(bone_shapes *s)
+{
+    for (int k = 0; k < SEGMENT_COUNT; k++) {
+        distance_field_destroy(&s->field[k]);
+        nearest_destroy(&s->tree[k]);
+    }
+    *s = (bone_shapes){0};
+}

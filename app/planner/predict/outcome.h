@@ -1,0 +1,35 @@
+/* outcome: what a prediction leaves on disk, with the evidence for it. */
+#pragma once
+#include "app/planner/predict/bone_depth.h"
+#include "app/planner/predict/carried.h"
+#include "app/planner/judge/judge.h"
+#include "app/planner/store/output_dir.h"
+#include "app/planner/predict/plan_contact.h"
+#include "app/planner/predict/plan_tissue.h"
+#include "sim/scene.h"
+
+typedef struct outcome {
+    const case_file *patient;
+    const plan_file *plan;
+    const plan_moves *moves;
+    const prepared *prepared;
+    const plan_tissue *tissue;
+    const equilibrium *solve;
+    const scene_report *scene;
+    const double *u;     /* [3*nodes] displacement of the tissue, mm */
+    const surface *skin; /* predicted */
+    const carried_landmarks *points;
+    const bone_depth *depth;
+    contact_kind contact; /* asked for */
+    const judgement *limits; /* of bones and tissue */
+    double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
+} outcome;
+
+/* outcome.json as a new object: all numbers that are shown to a user. */
+json_t *outcome_json(const outcome *o);
+/* Meshes, moves and landmarks: skin_before.ply, skin_after.ply and .stl, segment_NAME.ply and .stl where the
+ * plan puts them, NAME.tfm for each that moves, tissue.vtu with `displacement`, landmarks_planned.mrk.json.
+ */
+bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e) MUST_CHECK;
+/* The table of millimetres and the sentence on how far to trust it. */
+void outcome_print(const outcome *o);
