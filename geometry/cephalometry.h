@@ -18,14 +18,14 @@ typedef struct ceph_norm {
 } ceph_norm;
 
 typedef struct ceph_measure {
-    const char *name;    /* "SNA", "overjet" */
-    const char *group;   /* "Steiner", "COGS", ... */
-    const char *what;    /* how it is measured */
-    const char *unit;    /* "deg", "mm" or "%" */
-    const char *points;  /* needed, space-separated; "Go" a midpoint, "Ar|Co": Co where Ar is missing, and said */
+    const char *name;   /* "SNA", "overjet" */
+    const char *group;  /* "Steiner", "COGS", ... */
+    const char *what;   /* how it is measured */
+    const char *unit;   /* "deg", "mm" or "%" */
+    const char *points; /* needed, space-separated; "Go" a midpoint, "Ar|Co": Co where Ar is missing, and said */
     ceph_norm men, women;
-    const char *source;  /* of the norm; NULL where there is none */
-    int rule;            /* how the points are combined; see cephalometry.c */
+    const char *source; /* of the norm; NULL where there is none */
+    int rule;           /* how the points are combined; see cephalometry.c */
 } ceph_measure;
 
 extern const ceph_measure ceph_measures[];

@@ -11,10 +11,10 @@ extern "C" {
 #endif
 
 typedef struct clash_params {
-    double cell_mm; /* of the lattice that measures volumes; 0: the body is never the moved one of clash_volume */
-    double step_mm; /* of the grid that tells inside from outside; smaller is faster and needs more memory */
-    double tolerance_mm;     /* of depths and distances */
-    const double *box; /* [6] low, high: only this part of the body takes part in the queries; NULL: all of it */
+    double cell_mm;      /* of the lattice that measures volumes; 0: the body is never the moved one of clash_volume */
+    double step_mm;      /* of the grid that tells inside from outside; smaller is faster and needs more memory */
+    double tolerance_mm; /* of depths and distances */
+    const double *box;   /* [6] low, high: only this part of the body takes part in the queries; NULL: all of it */
 } clash_params;
 
 clash_params clash_params_default(void); /* 0.7, 0.7, 0.02, all */
@@ -23,8 +23,7 @@ typedef struct clash_body clash_body;
 
 /* Borrows s (closed, outward) until clash_body_free. kind[triangle_count] (may be NULL: all 1) puts every triangle
  * into sets, as bits. Refuses what solid_grid_make refuses. */
-bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *p, clash_body **out,
-                     err *e) MUST_CHECK;
+bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *p, clash_body **out, err *e) MUST_CHECK;
 void clash_body_free(clash_body **b); /* idempotent */
 
 const solid_grid *clash_body_grid(const clash_body *b);
@@ -35,7 +34,7 @@ double clash_volume(const clash_body *still, const clash_body *moved, const rigi
 
 typedef struct clash_spot {
     double mm;
-    double place[3];  /* frame of the still body */
+    double place[3]; /* frame of the still body */
     bool found;
 } clash_spot;
 

@@ -34,13 +34,13 @@ typedef struct cut_contact {
 } cut_contact;
 
 /* rel takes the face's bone into the frame of the other. other_face NULL: no gap is asked for. */
-cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const distance_tree *other_face, const rigid *rel,
-                                double touch_mm);
+cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, const distance_tree *other_face,
+                                const rigid *rel, double touch_mm);
 /* Of the face within the other bone, the part farthest from that bone's own face: the depth of bone that must go. place
  * in the frame of the other bone; not found: no part is within it. */
 clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const distance_tree *other_face, const rigid *rel);
 
-typedef struct cut_place { /* two points that the saw parted */
+typedef struct cut_place {         /* two points that the saw parted */
     double own[3], other[3], n[3]; /* n: from own to other */
 } cut_place;
 

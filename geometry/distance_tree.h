@@ -23,8 +23,7 @@ typedef struct distance_hit {
 /* Distance from p in mm if it lies between low and high; `high` if it is larger (or there is no triangle);
  * something not above low if it is smaller. hit (may be NULL) is for exact distances, and untouched where
  * there is none. */
-double distance_tree_between(const distance_tree *t, const double p[3], double low, double high,
-                             distance_hit *hit);
+double distance_tree_between(const distance_tree *t, const double p[3], double low, double high, distance_hit *hit);
 /* The distance itself. */
 double distance_tree_to(const distance_tree *t, const double p[3], distance_hit *hit);
 /* The surface is nearer than reach_mm. */

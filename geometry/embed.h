@@ -7,8 +7,8 @@ extern "C" {
 
 typedef struct embedding {
     int32_t point_count;
-    int32_t *tet;    /* [point_count] or -1: not carried, stays in place */
-    double *weight;  /* [4*point_count] barycentric, sum 1; negative where the point lies outside its tet */
+    int32_t *tet;   /* [point_count] or -1: not carried, stays in place */
+    double *weight; /* [4*point_count] barycentric, sum 1; negative where the point lies outside its tet */
     double max_gap_mm, mean_gap_mm; /* distance of the carried points from their tets */
 } embedding;
 

@@ -6,15 +6,15 @@
 extern "C" {
 #endif
 
-typedef enum face_region { /* disjoint */
-    FACE_OUTSIDE,          /* forehead, ears, neck, back of the head */
-    FACE_NOSE,             /* N to Sn, between the alae and 2 mm more */
-    FACE_UPPER_LIP,        /* Sn to stomion, between the mouth's corners */
-    FACE_LOWER_LIP,        /* stomion to B' */
-    FACE_CHIN,             /* B' to Me' */
-    FACE_CHEEK_LEFT,       /* beside these, orbitale to Me' */
-    FACE_CHEEK_RIGHT,
-    FACE_REGION_COUNT
+typedef enum face_region {                  /* disjoint */
+                           FACE_OUTSIDE,    /* forehead, ears, neck, back of the head */
+                           FACE_NOSE,       /* N to Sn, between the alae and 2 mm more */
+                           FACE_UPPER_LIP,  /* Sn to stomion, between the mouth's corners */
+                           FACE_LOWER_LIP,  /* stomion to B' */
+                           FACE_CHIN,       /* B' to Me' */
+                           FACE_CHEEK_LEFT, /* beside these, orbitale to Me' */
+                           FACE_CHEEK_RIGHT,
+                           FACE_REGION_COUNT
 } face_region;
 
 const char *face_region_name(face_region r);

@@ -7,11 +7,11 @@ extern "C" {
 #endif
 
 typedef struct head_frame {
-    double origin[3];    /* midpoint of the porions, mm */
-    double left[3];      /* unit axes, right-handed: left x posterior = up */
+    double origin[3]; /* midpoint of the porions, mm */
+    double left[3];   /* unit axes, right-handed: left x posterior = up */
     double posterior[3];
     double up[3];
-    double residual_mm;  /* largest distance of Po_L, Po_R, Or_L, Or_R from the plane */
+    double residual_mm; /* largest distance of Po_L, Po_R, Or_L, Or_R from the plane */
 } head_frame;
 
 /* Needs Po_L, Po_R and Or_L or Or_R (least squares with both). Refuses (ERR_INPUT) missing or collinear points and

@@ -10,9 +10,9 @@ extern "C" {
 
 typedef struct glb_shape {
     const char *name;
-    const surface *rest;    /* its vertices' colours, if it has any, go before rgb */
-    const double *planned;  /* [3*vertex_count] mm, or NULL: no morph target */
-    double rgb[3];          /* sRGB, 0..1 */
+    const surface *rest;   /* its vertices' colours, if it has any, go before rgb */
+    const double *planned; /* [3*vertex_count] mm, or NULL: no morph target */
+    double rgb[3];         /* sRGB, 0..1 */
 } glb_shape;
 
 /* Weights are 0, so that a viewer opens with the shapes at rest. Coordinates are floats (3e-5 mm at 300 mm). The file

@@ -32,12 +32,10 @@ int json_file_line(const json_file *f, const char *pointer);
 void json_file_field(const json_file *f, const char *pointer, char *field, size_t size);
 
 /* ERR_INPUT "path:line: field: text" for the value at the pointer ("": no field). Always false. */
-bool json_file_refuse(const json_file *f, const char *pointer, err *e, const char *fmt, ...)
-    PRINTF_LIKE(4, 5);
+bool json_file_refuse(const json_file *f, const char *pointer, err *e, const char *fmt, ...) PRINTF_LIKE(4, 5);
 
 /* Three finite numbers of an array value, else refused as above. */
-bool json_file_vec3(const json_file *f, const json_t *value, const char *pointer, double out[3],
-                    err *e) MUST_CHECK;
+bool json_file_vec3(const json_file *f, const json_t *value, const char *pointer, double out[3], err *e) MUST_CHECK;
 
 /* Writes root, indented, reals with 17 digits, keys in the order of insertion. The file appears whole or not
  * at all. Refuses (ERR_RESOURCE) what the disk refuses. */

@@ -12,15 +12,15 @@ typedef int label_function(const double p[3], void *context);
 typedef double size_function(const double p[3], int region, void *context);
 
 typedef struct label_mesher_params {
-    double low[3], high[3];       /* a box that contains the domain */
-    double facet_angle_deg;       /* smallest angle of a boundary facet, at most 30 */
-    double facet_distance_mm;     /* largest distance from a boundary facet to the true boundary */
-    double cell_radius_edge;      /* largest circumradius / shortest edge, at least 2 */
-    double boundary_error_mm;     /* bisection error of points on the boundary */
-    bool surface_only;            /* no size limit on cells: boundary facets are all that matters */
-    bool optimise;                /* perturb and exude slivers */
-    double time_limit_s;          /* of each optimiser; 0: until done (a limit makes results depend on the
-                                     machine's load: only for previews) */
+    double low[3], high[3];   /* a box that contains the domain */
+    double facet_angle_deg;   /* smallest angle of a boundary facet, at most 30 */
+    double facet_distance_mm; /* largest distance from a boundary facet to the true boundary */
+    double cell_radius_edge;  /* largest circumradius / shortest edge, at least 2 */
+    double boundary_error_mm; /* bisection error of points on the boundary */
+    bool surface_only;        /* no size limit on cells: boundary facets are all that matters */
+    bool optimise;            /* perturb and exude slivers */
+    double time_limit_s;      /* of each optimiser; 0: until done (a limit makes results depend on the
+                                 machine's load: only for previews) */
 } label_mesher_params;
 
 label_mesher_params label_mesher_params_default(void);

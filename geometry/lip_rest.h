@@ -25,8 +25,7 @@ lip_rest_params lip_rest_params_default(double vestibule_lower_mm);
  * was none). *count of them; 0 where the mandible does not come forward against the maxilla, or landmarks L1,
  * L6_L and L6_R are missing. Refuses what nearest_create refuses. */
 bool lip_rest(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const landmarks *l,
-              const head_frame *f, const lip_rest_params *p, attach_map *a, int32_t *count,
-              err *e) MUST_CHECK;
+              const head_frame *f, const lip_rest_params *p, attach_map *a, int32_t *count, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -7,9 +7,9 @@ extern "C" {
 #endif
 
 typedef struct mesh_file_report {
-    bool tagged;             /* the file carries SPACE=LPS or SPACE=RAS; a tag wins over the caller's word */
-    bool ras;                /* it said RAS (or, untagged, the caller did) and was turned to LPS */
-    int32_t welded_vertices; /* merged into another at exactly the same place */
+    bool tagged;               /* the file carries SPACE=LPS or SPACE=RAS; a tag wins over the caller's word */
+    bool ras;                  /* it said RAS (or, untagged, the caller did) and was turned to LPS */
+    int32_t welded_vertices;   /* merged into another at exactly the same place */
     int32_t dropped_triangles; /* that named a vertex twice */
     int32_t split_polygons;    /* of more than three corners, split as fans */
 } mesh_file_report;
@@ -19,12 +19,11 @@ typedef enum mesh_space { MESH_SPACE_FROM_FILE, MESH_SPACE_LPS, MESH_SPACE_RAS }
 /* .ply and .off through CGAL (double, vertex numbers kept), .stl .obj .gltf .glb through assimp (float, all
  * meshes of the file, welded, because these formats repeat a vertex in every triangle or group). The result
  * is LPS; numbers are taken as mm without a guess, but glTF is in metres with +y up by definition and is
- * turned: (x, y, z) m -> 1000 (x, -z, y). Colours of vertices are read from .ply only. Untagged files are taken as `space`, FROM_FILE meaning LPS. The
- * caller frees *out. Refuses (ERR_INPUT, with file) unknown extensions and tags, unreadable or truncated
- * files, vertex numbers out of range, coordinates that are not finite, files without triangles. report may be
- * NULL. */
-bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_file_report *report,
-                       err *e) MUST_CHECK;
+ * turned: (x, y, z) m -> 1000 (x, -z, y). Colours of vertices are read from .ply only. Untagged files are taken as
+ * `space`, FROM_FILE meaning LPS. The caller frees *out. Refuses (ERR_INPUT, with file) unknown extensions and tags,
+ * unreadable or truncated files, vertex numbers out of range, coordinates that are not finite, files without triangles.
+ * report may be NULL. */
+bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_file_report *report, err *e) MUST_CHECK;
 
 /* Merges vertices at exactly the same place into the first of them, then drops triangles that name a vertex
  * twice. Unused vertices stay. Adds to the report's counts. */
@@ -42,8 +41,7 @@ typedef struct point_array { /* a named array of doubles per node, for VTK files
 
 /* .vtu, appended raw, SPACE=LPS in the field data; cell array "region". An array named "displacement" becomes
  * the vectors that viewers warp by. Refuses (ERR_USAGE) other extensions. */
-bool mesh_write_tets(const tetmesh *m, const point_array *arrays, int array_count, const char *path,
-                     err *e) MUST_CHECK;
+bool mesh_write_tets(const tetmesh *m, const point_array *arrays, int array_count, const char *path, err *e) MUST_CHECK;
 
 /* .vtp, appended raw, SPACE=LPS in the field data; the first array is the active scalar. Refuses (ERR_USAGE) other
  * extensions. */

@@ -15,8 +15,7 @@ double nearest_point(const nearest *n, const double p[3], double point[3], int32
 /* The same from the answer at a place nearby, point and triangle, which make way for the answer here: quicker. */
 double nearest_point_onward(const nearest *n, const double p[3], double point[3], int32_t *triangle);
 /* First hit of the ray from `from` along `direction` (need not be unit); false if none. */
-bool nearest_ray(const nearest *n, const double from[3], const double direction[3], double hit[3],
-                 int32_t *triangle);
+bool nearest_ray(const nearest *n, const double from[3], const double direction[3], double hit[3], int32_t *triangle);
 /* True if p lies inside the closed surface (parity of crossings; shells that overlap must be united first). */
 bool nearest_inside(const nearest *n, const double p[3]);
 

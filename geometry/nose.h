@@ -18,7 +18,7 @@ enum { REGION_SEPTUM = 3 }; /* beside those of tissue.h */
 typedef struct nose_params {
     double dorsum_mm; /* soft tissue over the septum's dorsal edge */
     double tip_mm;    /* from the skin of the tip to the septal angle */
-    double foot_mm; /* gap between the septum and a maxilla that was cut from it, before and after the move */
+    double foot_mm;   /* gap between the septum and a maxilla that was cut from it, before and after the move */
 } nose_params;
 
 nose_params nose_params_default(void);

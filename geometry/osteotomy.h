@@ -28,10 +28,10 @@ typedef struct osteotomy_params { /* mm, mm^3, shares in [0, 1] */
     double palate_clearance_mm;  /* Le Fort I above the line ANS-PNS, between the choanae */
     double le_fort_raise_mm;     /* most that the Le Fort I sheet is raised above PR, ZB, PM to clear the root
                                     tips */
-    double above_lingula_mm, behind_lingula_mm; /* BSSO medial cut */
-    double buccal_depth_mm;                     /* thickest lateral plate that the sagittal cut leaves */
-    double ramus_depth_share;  /* the plate is this share of the bone where that is thinner */
-    double canal_clearance_mm; /* sagittal cut to the middle of the canal */
+    double above_lingula_mm, behind_lingula_mm;       /* BSSO medial cut */
+    double buccal_depth_mm;                           /* thickest lateral plate that the sagittal cut leaves */
+    double ramus_depth_share;                         /* the plate is this share of the bone where that is thinner */
+    double canal_clearance_mm;                        /* sagittal cut to the middle of the canal */
     double lingula_width_share, lingula_height_share; /* rule where Li is missing: from behind, from below */
     double below_mental_foramen_mm, chin_height_mm;   /* genioplasty; height kept at the midline */
     double fragment_mm3; /* islands smaller than this go to the piece next to which they lie */
@@ -49,8 +49,7 @@ typedef struct osteotomy_input {
      * of that segment. */
     const cut_plane *plane;
     int plane_count;
-    const double
-        *canal[2]; /* mandibular canal, left and right, [3*canal_count] from behind; NULL: estimated */
+    const double *canal[2]; /* mandibular canal, left and right, [3*canal_count] from behind; NULL: estimated */
     int canal_count[2];
 } osteotomy_input;
 

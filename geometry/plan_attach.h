@@ -25,8 +25,8 @@ typedef struct plan_attach_report {
 } plan_attach_report;
 
 /* A new map for this plan; the caller frees *out. Refuses what nearest_create refuses. */
-bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT],
-                 const plan_attach_params *p, attach_map *out, plan_attach_report *report, err *e) MUST_CHECK;
+bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const plan_attach_params *p,
+                 attach_map *out, plan_attach_report *report, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -53,8 +53,8 @@ rig_controls rig_controls_default(void); /* nothing moves */
  * needed (else NULL) by a jaw motion. Refuses (ERR_INPUT) numbers that are not finite, a moved cranium, both
  * forms for one segment, a jaw motion without condyles or with condyles less than 40 mm apart or on the wrong
  * sides. */
-bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3],
-                rigid motion[SEGMENT_COUNT], err *e) MUST_CHECK;
+bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3], rigid motion[SEGMENT_COUNT],
+                err *e) MUST_CHECK;
 
 /* One move of a segment, as above. */
 rigid rig_segment_motion(const segment_move *m, const head_frame *f);

@@ -11,10 +11,10 @@ typedef struct rigid {
 } rigid;
 
 rigid rigid_identity(void);
-bool rigid_is_identity(const rigid *a); /* exactly */
-void rigid_apply(const rigid *a, const double x[3], double out[3]); /* out may alias x */
+bool rigid_is_identity(const rigid *a);                              /* exactly */
+void rigid_apply(const rigid *a, const double x[3], double out[3]);  /* out may alias x */
 void rigid_rotate(const rigid *a, const double v[3], double out[3]); /* directions; out may alias v */
-rigid rigid_compose(const rigid *outer, const rigid *inner); /* x -> outer(inner(x)) */
+rigid rigid_compose(const rigid *outer, const rigid *inner);         /* x -> outer(inner(x)) */
 rigid rigid_inverse(const rigid *a);
 rigid rigid_translation(const double t_mm[3]);
 /* Rotation by angle_rad about the unit axis through pivot. */

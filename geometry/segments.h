@@ -16,8 +16,8 @@ typedef enum segment_id {
 } segment_id;
 
 typedef struct segments {
-    surface part[SEGMENT_COUNT];  /* closed, outward; vertex_count 0 where the case has no such segment */
-    surface kerf;                 /* the bone removed by the saw, all cuts together (closed pieces) */
+    surface part[SEGMENT_COUNT]; /* closed, outward; vertex_count 0 where the case has no such segment */
+    surface kerf;                /* the bone removed by the saw, all cuts together (closed pieces) */
 } segments;
 
 const char *segment_name(segment_id id); /* "cranium", "maxilla", "distal", "proximal_left", ... */

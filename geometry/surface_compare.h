@@ -22,7 +22,7 @@ typedef struct distance_stats { /* each vertex counts once; mm */
 distance_stats distance_summary(const double *signed_mm, const uint8_t *selected, uint8_t value, int32_t count);
 
 typedef struct surface_fit {
-    rigid move;       /* brings `moving` onto `still` */
+    rigid move;           /* brings `moving` onto `still` */
     int32_t points, used; /* of `still`; used: after trimming, in the last iteration */
     int iterations;
     double rms_before_mm, rms_after_mm; /* of the used points: point to surface */

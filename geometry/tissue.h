@@ -12,18 +12,18 @@ extern "C" {
 
 /* All lengths mm. Defaults in tissue_params_default; ranges in the case field table. */
 typedef struct tissue_params {
-    double element_mm;        /* edge length at lips, nose and chin */
-    double coarse_mm;         /* largest edge length, far from them */
-    double growth;            /* growth of the edge length per mm of distance */
-    double hole_mm;           /* openings of the skeleton narrower than this are spanned by the wrap */
-    double collar_mm;         /* tissue kept below the wrap where it spans a hole */
-    double detail_mm;         /* gaps between bones narrower than this are filled */
-    double touch_mm;          /* wrap nodes nearer to bone than this are moved onto the bone */
-    double cut_band_mm;       /* half width of the strip along a saw cut where tissue hangs loose */
+    double element_mm;  /* edge length at lips, nose and chin */
+    double coarse_mm;   /* largest edge length, far from them */
+    double growth;      /* growth of the edge length per mm of distance */
+    double hole_mm;     /* openings of the skeleton narrower than this are spanned by the wrap */
+    double collar_mm;   /* tissue kept below the wrap where it spans a hole */
+    double detail_mm;   /* gaps between bones narrower than this are filled */
+    double touch_mm;    /* wrap nodes nearer to bone than this are moved onto the bone */
+    double cut_band_mm; /* half width of the strip along a saw cut where tissue hangs loose */
     double vestibule_upper_mm, vestibule_lower_mm; /* depth of the mouth's vestibule from the incisal edge */
-    double coronal_mm;        /* the coronal cut, behind (+) or in front (-) of the porions */
-    double neck_mm, brow_mm;  /* the neck cut below menton, the upper cut above nasion */
-    double far_mm;            /* cut faces farther than this from moving bone are fixed */
+    double coronal_mm;                             /* the coronal cut, behind (+) or in front (-) of the porions */
+    double neck_mm, brow_mm;                       /* the neck cut below menton, the upper cut above nasion */
+    double far_mm;                                 /* cut faces farther than this from moving bone are fixed */
 } tissue_params;
 
 /* Where a boundary node lies. */
@@ -34,10 +34,10 @@ enum { REGION_LOWER = 1, REGION_UPPER = 2 }; /* below and above the sheet throug
 typedef struct tissue_report {
     tetmesh_quality quality;
     int32_t nodes, tets, skin_nodes, tied_nodes, sliding_nodes, loose_nodes, fixed_nodes, hole_nodes, lip_pairs;
-    int32_t not_snapped;      /* wrap nodes near bone that could not be moved onto it without flattening a tet */
-    double max_bone_gap_mm;   /* largest distance of a tied node from its bone */
+    int32_t not_snapped;    /* wrap nodes near bone that could not be moved onto it without flattening a tet */
+    double max_bone_gap_mm; /* largest distance of a tied node from its bone */
     double skin_gap_mean_mm, skin_gap_max_mm; /* of the skin's vertices from the tets that carry them */
-    char left_out[512];       /* what the domain leaves out, in words */
+    char left_out[512];                       /* what the domain leaves out, in words */
 } tissue_report;
 
 /* The sheet through the lip line: level from front to back (along Frankfort), a parabola through the mouth corners

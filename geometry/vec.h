@@ -63,8 +63,7 @@ static inline void mat_apply_transposed(const double m[9], const double a[3], do
 }
 static inline double mat_det(const double m[9])
 {
-    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
-           m[2] * (m[3] * m[7] - m[4] * m[6]);
+    return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 /* Six times the signed volume of tet (a,b,c,d); positive by the right-hand rule. */
 static inline double vec_six_volume(const double a[3], const double b[3], const double c[3], const double d[3])

@@ -27,10 +27,9 @@ bool anatomy_exploded_write(const anatomy_piece *pieces, int count, const stroke
  * _R). Soft-tissue points (a label that ends in ' or is one of Pn Sn Ls Stm Stms Stmi Li_soft C and the Al,
  * Ch, En, Ex, T pairs) are red, bony ones blue. skin (NULL) or bones (0) may be left out; the skin is clear
  * over the bones. */
-bool anatomy_landmarks_write(const surface *skin, const subject_part *parts, int part_count,
-                             const landmarks *points, const head_frame *frame, const char *text,
-                             const gallery_style *style, int width, int height, const char *path,
-                             err *e) MUST_CHECK;
+bool anatomy_landmarks_write(const surface *skin, const subject_part *parts, int part_count, const landmarks *points,
+                             const head_frame *frame, const char *text, const gallery_style *style, int width,
+                             int height, const char *path, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -26,8 +26,8 @@ typedef struct camera {
     double target[3];                /* mm, seen in the middle of the picture */
     double right[3], up[3], back[3]; /* unit, right-handed; back points from the target to the viewer */
     double half_height_mm;           /* half the height of the picture, in the plane of the target */
-    double depth_mm; /* what is nearer or farther than this from the target plane is clipped */
-    double eye_mm;   /* perspective: distance of the eye from the target; 0: orthographic */
+    double depth_mm;                 /* what is nearer or farther than this from the target plane is clipped */
+    double eye_mm;                   /* perspective: distance of the eye from the target; 0: orthographic */
 } camera;
 
 const char *camera_view_name(camera_view view); /* "front", "left", "three_quarter_left", ... */
@@ -47,16 +47,14 @@ bool camera_custom(const double toward_viewer[3], const double up[3], const doub
 void camera_fit(camera *c, double radius_mm, int width, int height, double margin);
 /* Same, for the extents that these surfaces have in this view; recentres the target on them. Surfaces with no
  * vertices are left out. */
-void camera_fit_surfaces(camera *c, const surface *const *surfaces, int count, int width, int height,
-                         double margin);
+void camera_fit_surfaces(camera *c, const surface *const *surfaces, int count, int width, int height, double margin);
 /* Perspective with this full vertical angle; the size at the target plane stays. */
 void camera_set_perspective(camera *c, double angle_rad);
 /* Pixels per mm: everywhere (orthographic) or in the plane of the target (perspective). */
 double camera_scale(const camera *c, int height);
 /* Pixel coordinates of a point (x from the left, y from the top) and its distance in front of the target
  * plane. */
-void camera_project(const camera *c, int width, int height, const double p[3], double *x, double *y,
-                    double *near_mm);
+void camera_project(const camera *c, int width, int height, const double p[3], double *x, double *y, double *near_mm);
 
 #ifdef __cplusplus
 }

@@ -20,9 +20,9 @@ typedef enum chart_pattern { CHART_PLAIN, CHART_DOTS, CHART_STRIPES } chart_patt
 typedef struct chart_kind {
     double rgb[3];
     chart_pattern pattern;
-    int rank;            /* of the lines between kinds: the higher, the heavier */
-    char letter[4];      /* written into its patches and into the legend; "" none */
-    const char *text;    /* in the legend; NULL: left out there */
+    int rank;         /* of the lines between kinds: the higher, the heavier */
+    char letter[4];   /* written into its patches and into the legend; "" none */
+    const char *text; /* in the legend; NULL: left out there */
 } chart_kind;
 
 typedef enum chart_symbol { CHART_CROSS, CHART_RING, CHART_DOT } chart_symbol;
@@ -36,11 +36,11 @@ typedef struct chart_mark {
 typedef struct chart {
     const char *title, *subtitle; /* subtitle may be NULL */
     chart_axis x, y;
-    const int32_t *kind;     /* [x.count*y.count] number of the kind, x fastest */
+    const int32_t *kind;       /* [x.count*y.count] number of the kind, x fastest */
     const double *crossing[2]; /* NULL or [x.count*y.count] along x, along y: share of the way to the next node at which
                                   the rank changes; read only where it does */
-    const uint8_t *veiled;   /* NULL or [x.count*y.count] 1: drawn under a grey net */
-    const char *veil_text;   /* in the legend */
+    const uint8_t *veiled;     /* NULL or [x.count*y.count] 1: drawn under a grey net */
+    const char *veil_text;     /* in the legend */
     const chart_kind *kinds;
     int kind_count;
     const chart_mark *marks;

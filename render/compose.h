@@ -26,8 +26,7 @@ compose_params compose_params_default(void); /* 2 columns, 6 pixels, 22 */
 void compose_tile_size(int count, const compose_params *params, int *width, int *height);
 /* Rows from the top left. All pictures have the same size. *out is created; the caller frees it. Refuses
  * (ERR_USAGE) pictures of different sizes and a sheet over IMAGE_SIZE_MAX. */
-bool compose_sheet(const compose_tile *tiles, int count, const compose_params *params, image *out,
-                   err *e) MUST_CHECK;
+bool compose_sheet(const compose_tile *tiles, int count, const compose_params *params, image *out, err *e) MUST_CHECK;
 int compose_title_height(const compose_params *params); /* pixels of the title strip */
 
 #ifdef __cplusplus

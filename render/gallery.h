@@ -48,15 +48,14 @@ typedef struct gallery_style {
     double displacement_mm, signed_mm, stretch_percent; /* end of each colour range; 0: from the data, rounded
                                                            up. That of signed_mm is symmetric. */
     double zoom;                                        /* 1: the face fills the picture */
-    const char *centre;     /* label of the landmark to be in the middle; NULL: the face */
+    const char *centre;                                 /* label of the landmark to be in the middle; NULL: the face */
     double perspective_deg; /* full vertical angle; 0: orthographic, with a true scale bar */
     char sex;               /* 'f' or 'm': norms beside the cephalometry; 0: none */
     bool labels;
     label_fonts fonts;
 } gallery_style;
 
-gallery_style
-gallery_style_default(void); /* 64, 0.25, from the data, 1, orthographic, no norms, labels, DejaVu Sans */
+gallery_style gallery_style_default(void); /* 64, 0.25, from the data, 1, orthographic, no norms, labels, DejaVu Sans */
 
 typedef struct gallery gallery;
 

@@ -51,8 +51,7 @@ typedef struct label_map {
 } label_map;
 
 /* A horizontal bar with ticks and numbers above. */
-void label_color_bar(pen *p, double x, double y, double width, double height, double size,
-                     const label_map *m);
+void label_color_bar(pen *p, double x, double y, double width, double height, double size, const label_map *m);
 
 /* R and L at the borders of the area (x, y, width, height) where the view shows the patient's two sides; in a
  * profile the one side that faces the viewer, at the left border. Goes by the camera, so that a mirrored
@@ -72,8 +71,7 @@ void label_points(pen *p, const image *im, double size, const camera *c, const l
 
 /* Names in one column to the left of all points, each on a thin line to its point; for profiles that look
  * left. */
-void label_column(pen *p, int width, int height, double size, const camera *c, const label_point *points,
-                  int count);
+void label_column(pen *p, int width, int height, double size, const camera *c, const label_point *points, int count);
 
 typedef struct label_entry {
     const char *text;

@@ -36,10 +36,9 @@ bool panel_has_pose(panel_show show);
 
 typedef struct panel {
     panel_show show;
-    panel_pose pose; /* of what has one */
-    double azimuth_deg, elevation_deg,
-        roll_deg;        /* see camera_orbit; profiles are always seen from their side */
-    const char *caption; /* at the top left; may be NULL */
+    panel_pose pose;                             /* of what has one */
+    double azimuth_deg, elevation_deg, roll_deg; /* see camera_orbit; profiles are always seen from their side */
+    const char *caption;                         /* at the top left; may be NULL */
 } panel;
 
 #ifdef __cplusplus

@@ -25,12 +25,12 @@ typedef struct layer {
     material kind;             /* how it shines */
     double rgb[3];             /* sRGB 0..1 */
     const uint8_t *vertex_rgb; /* [3*vertex_count] sRGB, replaces rgb; may be NULL */
-    const double *scalar; /* [vertex_count], shown through map over [low, high]; may be NULL; NaN: no data */
+    const double *scalar;      /* [vertex_count], shown through map over [low, high]; may be NULL; NaN: no data */
     colormap map;
     double low, high;
-    double fade_end; /* from low to here rgb passes into the map; <= low: the map everywhere */
-    double opacity;  /* 1: opaque; below 1 only the front-most sheet of the layer is seen */
-    bool over; /* clear layers: an outline seen through all other layers, not only where it lies in front */
+    double fade_end;      /* from low to here rgb passes into the map; <= low: the map everywhere */
+    double opacity;       /* 1: opaque; below 1 only the front-most sheet of the layer is seen */
+    bool over;            /* clear layers: an outline seen through all other layers, not only where it lies in front */
     const double *weight; /* [vertex_count] 0..1, times the opacity of a clear layer; may be NULL */
     rigid move;
 } layer;
@@ -60,7 +60,7 @@ typedef struct picture {
 } picture;
 
 typedef struct picture_style {
-    int width, height; /* pixels, of 4 samples each */
+    int width, height;                              /* pixels, of 4 samples each */
     double background_top[3], background_bottom[3]; /* sRGB */
     double exposure;                                /* 1: usual */
 } picture_style;

@@ -12,8 +12,7 @@ typedef struct png_note { /* a tEXt chunk, or iTXt where the value is not ASCII;
 /* 8-bit RGBA, or RGB where the image is opaque throughout, with the texts and no time stamp: same image and
  * texts, same bytes. The file appears whole or not at all. Refuses (ERR_RESOURCE) what cannot be written,
  * (ERR_USAGE) a bad keyword. */
-bool png_file_write(const image *im, const png_note *texts, int text_count, const char *path,
-                    err *e) MUST_CHECK;
+bool png_file_write(const image *im, const png_note *texts, int text_count, const char *path, err *e) MUST_CHECK;
 /* *out is created; the caller frees it. Refuses (ERR_INPUT) what is not a whole PNG file. */
 bool png_file_read(const char *path, image *out, err *e) MUST_CHECK;
 /* The value of such a chunk, newly allocated; NULL in *value if there is none. */

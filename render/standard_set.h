@@ -19,8 +19,7 @@ extern const int standard_set_count;
 
 /* Writes those that the subject has data for into `folder`, which must exist. written[standard_set_count]
  * (may be NULL) tells which. Refuses what gallery_write refuses. */
-bool standard_set_write(gallery *g, int width, int height, const char *folder, bool *written,
-                        err *e) MUST_CHECK;
+bool standard_set_write(gallery *g, int width, int height, const char *folder, bool *written, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

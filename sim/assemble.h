@@ -34,8 +34,8 @@ typedef struct assembly {
 
 /* Takes *el over (leaves it empty) on success. coupling[2*coupling_count]: further pairs of nodes, low <
  * high, that the pattern is to hold. Refuses (ERR_RESOURCE) a mesh too large for its 32-bit numbers. */
-bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int32_t *coupling,
-                   int32_t coupling_count, assembly *out, err *e) MUST_CHECK;
+bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int32_t *coupling, int32_t coupling_count,
+                   assembly *out, err *e) MUST_CHECK;
 void assembly_free(assembly *a);
 
 /* Energy in uJ at x[3*node_count]; HUGE_VAL where a material has none. force[3*node_count] (may be NULL) in

@@ -33,17 +33,16 @@ extern "C" {
 #endif
 
 typedef struct contact_params {
-    double support;        /* of lips: h over the longest edge at a node; 1.5 to 2 */
-    double activation_mm;  /* where surfaces apart at rest begin to push */
-    double depth_mm;       /* expected under pressure_kpa: k = pressure / (3 depth^2) */
-    double pressure_kpa;   /* 0: Young's modulus of the stiffest tissue */
-    double depth_limit_mm; /* deeper contacts are stiffened and solved again; refused as a result */
-    int max_stiffenings;   /* of all contacts that are too deep, each by 4 */
-    double
-        facing_cos; /* samples of a lip whose normal is farther from the node's own than this are not asked */
-    double slide_mm;     /* how far lips may slide before their coupling leaves the matrix (not the forces) */
-    double free_rel_tol; /* phase A, without contact: tolerance and */
-    int free_iterations; /* most iterations; 0: no phase A */
+    double support;         /* of lips: h over the longest edge at a node; 1.5 to 2 */
+    double activation_mm;   /* where surfaces apart at rest begin to push */
+    double depth_mm;        /* expected under pressure_kpa: k = pressure / (3 depth^2) */
+    double pressure_kpa;    /* 0: Young's modulus of the stiffest tissue */
+    double depth_limit_mm;  /* deeper contacts are stiffened and solved again; refused as a result */
+    int max_stiffenings;    /* of all contacts that are too deep, each by 4 */
+    double facing_cos;      /* samples of a lip whose normal is farther from the node's own than this are not asked */
+    double slide_mm;        /* how far lips may slide before their coupling leaves the matrix (not the forces) */
+    double free_rel_tol;    /* phase A, without contact: tolerance and */
+    int free_iterations;    /* most iterations; 0: no phase A */
     int refresh_iterations; /* colliders are renewed in each of so many iterations, then when those converged
                              */
 } contact_params;
@@ -57,8 +56,8 @@ typedef struct bone_shape {
     double (*distance)(const void *context, const double x[3], double grad[3], double *hess);
     /* Where the way from x along the unit direction leaves the bone for the last time within reach_mm, and
      * the unit normal there; false: it does not. */
-    bool (*leave)(const void *context, const double x[3], const double direction[3], double reach_mm,
-                  double hit[3], double normal[3]);
+    bool (*leave)(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
+                  double normal[3]);
 } bone_shape;
 
 /* Borrowed until solver_destroy. */
@@ -82,8 +81,8 @@ typedef struct contact_report {
     int32_t pinched;      /* nodes between bones that overlap there: out of one is into the other */
     int32_t passed;       /* nodes that seem to have gone right through a bone */
     int32_t guards;       /* planes that keep nodes from it, or from turning for ever at a thin bone */
-    int32_t lost; /* combinations given up: at a thin bone whose side is not clear, or deeper in a lip than
-                     the bones have moved, so taken for behind; not pushed */
+    int32_t lost;         /* combinations given up: at a thin bone whose side is not clear, or deeper in a lip than
+                             the bones have moved, so taken for behind; not pushed */
     int32_t active_nodes; /* that do touch */
     double depth_mm;      /* deepest penetration: below the surface, or below the gap at rest where that
                              is less than 0; at contacts with C >= 1/2 */
@@ -91,9 +90,9 @@ typedef struct contact_report {
     double energy_uj;
     int free_iterations, contact_iterations; /* phases A and B, all loads */
     int refreshes, stiffenings;
-    double refresh_change_mm; /* of the active gaps in the last refresh */
-    double slide_off_mm;      /* farthest that the last refresh moved a sliding node back to its level */
-    int32_t uncoupled;        /* lip contacts whose coupling was not in the matrix at its last filling */
+    double refresh_change_mm;               /* of the active gaps in the last refresh */
+    double slide_off_mm;                    /* farthest that the last refresh moved a sliding node back to its level */
+    int32_t uncoupled;                      /* lip contacts whose coupling was not in the matrix at its last filling */
     double bone_force_mn[SEGMENT_COUNT][3]; /* on the tissue */
 } contact_report;
 

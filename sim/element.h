@@ -44,8 +44,7 @@ extern const int element_pair[ELEMENT_PAIRS][2];
 void element_gradient_F(const double gradient[12], const double x_e[12], double F[9]);
 /* Energy in uJ; force[12] (may be NULL) in mN. Returns HUGE_VAL, force zero, where the material has no
  * energy. */
-double element_energy(const material *m, const double gradient[12], double volume, const double x_e[12],
-                      double *force);
+double element_energy(const material *m, const double gradient[12], double volume, const double x_e[12], double *force);
 /* Stiffness blocks, block[9*p] = d force_i / d x_j for pair p = (i, j), row-major, mN/mm. */
 void element_stiffness(const material *m, const double gradient[12], double volume, const double x_e[12],
                        projection how, double block[9 * ELEMENT_PAIRS]);

@@ -74,8 +74,8 @@ typedef struct solve_params {
     int max_halvings;   /* failed loads that are tried again at half the step, in all; 0: none */
     int max_iterations; /* at one load */
     int max_step_cuts;  /* halvings within one line search */
-    double rel_tol; /* of the residual with the bones moved and the free tissue carried rigidly; the last step
-                       must be small too, below sqrt(rel_tol) of how far the bones move */
+    double rel_tol;     /* of the residual with the bones moved and the free tissue carried rigidly; the last step
+                           must be small too, below sqrt(rel_tol) of how far the bones move */
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
@@ -137,8 +137,8 @@ void equilibrium_free(equilibrium *q);
 typedef struct solver solver;
 bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e) MUST_CHECK;
 void solver_destroy(solver **t);
-bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz,
-                  const solve_params *params, equilibrium *out, err *e) MUST_CHECK;
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+                  equilibrium *out, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

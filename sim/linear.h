@@ -22,8 +22,8 @@ typedef struct linear_stats {
 /* Lower triangle by columns: rows row[start[j] .. start[j+1]) ascending, the diagonal first. Both arrays are
  * borrowed until linear_destroy. blas_threads 1 gives the same bits on every run; more is faster and changes
  * the last bits with their number. Refuses ERR_RESOURCE. */
-bool linear_create(int64_t unknown_count, const int64_t *start, const int64_t *row, int blas_threads,
-                   linear **out, err *e) MUST_CHECK;
+bool linear_create(int64_t unknown_count, const int64_t *start, const int64_t *row, int blas_threads, linear **out,
+                   err *e) MUST_CHECK;
 void linear_destroy(linear **l);
 /* Factorises A + shift I. *positive_definite false: there is no factor. Refuses ERR_RESOURCE. */
 bool linear_factor(linear *l, const double *value, double shift, bool *positive_definite, err *e) MUST_CHECK;

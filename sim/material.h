@@ -15,10 +15,10 @@ extern "C" {
 #endif
 
 typedef enum material_model {
-    MATERIAL_SNH_LOG, /* Stable Neo-Hookean with the logarithm: Smith, de Goes, Kim 2018, eq. 14; default */
-    MATERIAL_SNH,     /* the same without the logarithm */
-    MATERIAL_NH_LN,   /* mu/2 (I-3) - mu ln J + lambda/2 (ln J)^2; infinite for J <= 0 */
-    MATERIAL_NH_ISO,  /* mu/2 (J^(-2/3) I - 3) + K/2 (J-1)^2; infinite for J <= 0 */
+    MATERIAL_SNH_LOG,         /* Stable Neo-Hookean with the logarithm: Smith, de Goes, Kim 2018, eq. 14; default */
+    MATERIAL_SNH,             /* the same without the logarithm */
+    MATERIAL_NH_LN,           /* mu/2 (I-3) - mu ln J + lambda/2 (ln J)^2; infinite for J <= 0 */
+    MATERIAL_NH_ISO,          /* mu/2 (J^(-2/3) I - 3) + K/2 (J-1)^2; infinite for J <= 0 */
     MATERIAL_FIXED_COROTATED, /* Stomakhin et al. 2012; Lame's mu and lambda */
     MATERIAL_ARAP,            /* the same without a volume term: poisson must be 0 */
     MATERIAL_MODEL_COUNT,
@@ -32,8 +32,8 @@ typedef struct material {
     material_model model;
     double young_kpa, poisson;
     double mu_kpa, lambda_kpa;
-    double averaged_kpa; /* part of lambda_kpa that elements average (element_choose); material_make: 0 */
-    double pressure_kpa; /* adds pressure_kpa (J - 1) to snhlog and snh; material_make: 0 */
+    double averaged_kpa;        /* part of lambda_kpa that elements average (element_choose); material_make: 0 */
+    double pressure_kpa;        /* adds pressure_kpa (J - 1) to snhlog and snh; material_make: 0 */
     double target[9], target_j; /* A and its determinant */
 } material;
 

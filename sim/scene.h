@@ -25,8 +25,7 @@ typedef struct scene_report {
     bool full; /* everything was solved for, by choice or because nothing could be left out */
     double tolerance_mm;
     int rounds;
-    int32_t nodes, tets, left_out_nodes,
-        left_out_tets; /* nodes and tets in all; left out in the last round */
+    int32_t nodes, tets, left_out_nodes, left_out_tets; /* nodes and tets in all; left out in the last round */
     double left_out_mm3;
     double *error;   /* [3*nodes] mm: how far each node would still move, were nothing left out; zero where
                         nothing   is. The caller frees (scene_report_free) */
@@ -38,8 +37,7 @@ void scene_report_free(scene_report *r);
 
 /* How far each node is expected to move against the cranium, at most, mm; estimate[nodes]. A guess from
  * measurements, not a bound: scene_check is what tells. */
-void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SEGMENT_COUNT],
-                    double *estimate);
+void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SEGMENT_COUNT], double *estimate);
 /* How far nodes that were held (held[nodes] != 0) would move from x[3*nodes] were they free; error[3*nodes].
  * Refuses what equilibrium_solve refuses. */
 bool scene_check(const equilibrium_problem *problem, const uint8_t *held, const double *x, double *error,

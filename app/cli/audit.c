@@ -3,7 +3,17 @@
 #include "app/cli/audit_space.h"
 #include <stdlib.h>
 
-enum { KEY_CACHE = 300, KEY_NO_PICTURES, KEY_LINE, KEY_PAIR, KEY_BOX, KEY_AROUND, KEY_GEOMETRY, KEY_SPACING, KEY_TOLERANCE };
+enum {
+    KEY_CACHE = 300,
+    KEY_NO_PICTURES,
+    KEY_LINE,
+    KEY_PAIR,
+    KEY_BOX,
+    KEY_AROUND,
+    KEY_GEOMETRY,
+    KEY_SPACING,
+    KEY_TOLERANCE
+};
 
 static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "Folder for the results", 0},
@@ -46,7 +56,8 @@ static double read_number(const char *name, const char *arg, struct argp_state *
 {
     char *end;
     double x = strtod(arg, &end);
-    if (end == arg || *end || !(x >= 0.001 && x <= 5)) argp_error(state, "%s %s: must be a number from 0.001 to 5", name, arg);
+    if (end == arg || *end || !(x >= 0.001 && x <= 5))
+        argp_error(state, "%s %s: must be a number from 0.001 to 5", name, arg);
     return x;
 }
 
@@ -62,14 +73,38 @@ static error_t parse_space(int key, char *arg, struct input *in, struct argp_sta
 {
     audit_space_options *s = &in->space;
     switch (key) {
-    case KEY_LINE: in->space_only = "--line"; ask_for(s, arg, 1, state); return 0;
-    case KEY_PAIR: in->space_only = "--pair"; ask_for(s, arg, 2, state); return 0;
-    case KEY_BOX: in->space_only = "--box"; ask_for(s, arg, 3, state); return 0;
-    case KEY_AROUND: in->space_only = "--around"; s->around = arg; return 0;
-    case KEY_SPACING: in->space_only = "--spacing"; s->spacing = read_number("--spacing", arg, state); return 0;
-    case KEY_TOLERANCE: in->space_only = "--tolerance"; s->tolerance = read_number("--tolerance", arg, state); return 0;
-    case KEY_GEOMETRY: in->space_only = "--geometry-only"; s->geometry_only = true; return 0;
-    case KEY_NO_PICTURES: in->space_only = "--no-pictures"; s->no_pictures = true; return 0;
+    case KEY_LINE:
+        in->space_only = "--line";
+        ask_for(s, arg, 1, state);
+        return 0;
+    case KEY_PAIR:
+        in->space_only = "--pair";
+        ask_for(s, arg, 2, state);
+        return 0;
+    case KEY_BOX:
+        in->space_only = "--box";
+        ask_for(s, arg, 3, state);
+        return 0;
+    case KEY_AROUND:
+        in->space_only = "--around";
+        s->around = arg;
+        return 0;
+    case KEY_SPACING:
+        in->space_only = "--spacing";
+        s->spacing = read_number("--spacing", arg, state);
+        return 0;
+    case KEY_TOLERANCE:
+        in->space_only = "--tolerance";
+        s->tolerance = read_number("--tolerance", arg, state);
+        return 0;
+    case KEY_GEOMETRY:
+        in->space_only = "--geometry-only";
+        s->geometry_only = true;
+        return 0;
+    case KEY_NO_PICTURES:
+        in->space_only = "--no-pictures";
+        s->no_pictures = true;
+        return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -77,9 +112,11 @@ static error_t parse_space(int key, char *arg, struct input *in, struct argp_sta
 static void check(const struct input *in, struct argp_state *state)
 {
     const audit_space_options *s = &in->space;
-    if (in->plan && in->space_only) argp_error(state, "%s has no meaning with --plan, which judges one plan", in->space_only);
+    if (in->plan && in->space_only)
+        argp_error(state, "%s has no meaning with --plan, which judges one plan", in->space_only);
     if (!in->plan && !in->out) argp_error(state, "name a folder for the results with -o, or a plan with --plan");
-    if (s->tolerance > s->spacing) argp_error(state, "--tolerance %g is wider than --spacing %g", s->tolerance, s->spacing);
+    if (s->tolerance > s->spacing)
+        argp_error(state, "--tolerance %g is wider than --spacing %g", s->tolerance, s->spacing);
 }
 
 static error_t parse(int key, char *arg, struct argp_state *state)
@@ -104,8 +141,12 @@ int command_audit(int argc, char **argv)
     struct input in = {.space = {.spacing = 1, .tolerance = 0.05}};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     if (in.plan)
-        return command_audit_plan(&(audit_plan_options){.common = in.common, .case_path = in.case_path[0], .plan = in.plan,
-                                                        .cache = in.cache, .out = in.out, .force = in.force});
+        return command_audit_plan(&(audit_plan_options){.common = in.common,
+                                                        .case_path = in.case_path[0],
+                                                        .plan = in.plan,
+                                                        .cache = in.cache,
+                                                        .out = in.out,
+                                                        .force = in.force});
     in.space.common = in.common;
     in.space.case_path = in.case_path[0];
     in.space.out = in.out;

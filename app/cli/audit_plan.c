@@ -66,8 +66,7 @@ int command_audit_plan(const audit_plan_options *in)
         ok = issue_none_is_error(&issues, &e) && ok;
     }
     ok = ok && (!in->out || output_dir_open(in->out, in->force, &dir, &e)) &&
-         prepared_get(&c, in->cache, &watch, &p, &e) &&
-         judge_it(in, &c, &p, &plan, &moves, &dir, &status, &e);
+         prepared_get(&c, in->cache, &watch, &p, &e) && judge_it(in, &c, &p, &plan, &moves, &dir, &status, &e);
     if (!ok && in->out) output_dir_abandon(&dir);
     prepared_free(&p);
     landmarks_free(&points);

@@ -36,7 +36,8 @@ static bool take_word(const char *word, int axes, const case_file *c, audit_sett
     bool ok = true;
     for (char *name = strtok_r(copy, ",", &rest); ok && name; name = strtok_r(NULL, ",", &rest)) {
         int k;
-        ok = r.axis_count < axes || err_set(e, ERR_USAGE, "%s %s: must name %s", option[axes - 1], word, wanted[axes - 1]);
+        ok = r.axis_count < axes ||
+             err_set(e, ERR_USAGE, "%s %s: must name %s", option[axes - 1], word, wanted[axes - 1]);
         ok = ok && take_control(name, c, s, &k, e);
         for (int i = 0; ok && i < r.axis_count; i++)
             if (r.axis[i] == k) ok = err_set(e, ERR_USAGE, "%s %s: names %s twice", option[axes - 1], word, name);
@@ -75,7 +76,8 @@ static bool take_default(const case_file *c, audit_settings *s, err *e)
 static void show_points(int64_t done, int64_t expected, double left_s, void *context)
 {
     char stage[96];
-    snprintf(stage, sizeof stage, left_s < 90 ? "judging bones: %lld points, %.0f s left" : "judging bones: %lld points, %.0f min left",
+    snprintf(stage, sizeof stage,
+             left_s < 90 ? "judging bones: %lld points, %.0f s left" : "judging bones: %lld points, %.0f min left",
              (long long)done, left_s < 90 ? left_s : left_s / 60);
     command_progress_at(context, stage, (double)done / (double)expected);
 }
@@ -120,7 +122,8 @@ static bool run(const audit_space_options *in, audit *a, err *e)
     bool ok = journal_open(path, key, in->force, audit_read_record, a, &j, e);
     if (ok) {
         if (j.record_count)
-            command_note(&in->common, "%s: goes on after %lld finished points and solves", path, (long long)j.record_count);
+            command_note(&in->common, "%s: goes on after %lld finished points and solves", path,
+                         (long long)j.record_count);
         a->progress = show_points;
         a->solved = show_solves;
         a->interrupted = was_interrupted;
@@ -129,10 +132,11 @@ static bool run(const audit_space_options *in, audit *a, err *e)
         sample_set_sort(&a->points);
         tissue_set_sort(&a->tissue);
         ok = ok && write_all(in, a, e);
-        if (ok) journal_remove(&j);
+        if (ok)
+            journal_remove(&j);
         else if (e->code == ERR_INTERRUPTED)
-            command_note(&in->common, "%s keeps %lld finished points and solves; the same command goes on from there", path,
-                         (long long)j.record_count);
+            command_note(&in->common, "%s keeps %lld finished points and solves; the same command goes on from there",
+                         path, (long long)j.record_count);
         journal_close(&j);
     }
     free(path);

@@ -30,10 +30,14 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 
 int command_ceph(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, "CASE|OUT",
+    static const struct argp argp = {options,
+                                     parse,
+                                     "CASE|OUT",
                                      "Cephalometry of a case, or of an outcome of gnathos predict: before and as "
                                      "planned, with the norms of adults.",
-                                     command_common, NULL, NULL};
+                                     command_common,
+                                     NULL,
+                                     NULL};
     struct input in = {0};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};

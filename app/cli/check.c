@@ -11,26 +11,17 @@ typedef struct check_input {
     const char *case_path, *plan_path;
 } check_input;
 
-static const struct argp_option options[] = {
-    {"plan", 'p', "PLAN", 0, "Check this plan against the case too", 0}, {0}};
+static const struct argp_option options[] = {{"plan", 'p', "PLAN", 0, "Check this plan against the case too", 0}, {0}};
 
 static error_t parse(int key, char *arg, struct argp_state *state)
 {
     check_input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case 'p':
-        in->plan_path = arg;
-        return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, &in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "name a case: a folder or its case.json");
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'p': in->plan_path = arg; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, &in->case_path, 1, state);
+    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case: a folder or its case.json"); return 0;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -45,15 +36,14 @@ static const struct argp argp = {options,
                                  NULL,
                                  NULL};
 
-static void print_plain(const case_file *c, const check_found *found, const plan_file *plan,
-                        const issue_list *issues)
+static void print_plain(const case_file *c, const check_found *found, const plan_file *plan, const issue_list *issues)
 {
     printf("case %s (%s)\n", c->name, c->path);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)
         if (found->mesh[i].vertex_count)
-            printf("  %-12s %8d vertices %8d triangles %6d open edges %7.1f mm\n",
-                   case_surface_name((case_surface)i), found->mesh[i].vertex_count,
-                   found->mesh[i].triangle_count, found->open_edges[i], found->diagonal_mm[i]);
+            printf("  %-12s %8d vertices %8d triangles %6d open edges %7.1f mm\n", case_surface_name((case_surface)i),
+                   found->mesh[i].vertex_count, found->mesh[i].triangle_count, found->open_edges[i],
+                   found->diagonal_mm[i]);
     printf("  landmarks    %8d points, Frankfort plane within %.2f mm\n", found->points.count,
            found->frame_residual_mm);
     if (plan) printf("plan %s (%s)\n", plan->name, plan->path);
@@ -65,8 +55,7 @@ static void set_text(json_t *o, const char *key, const char *text)
     if (text && *text) json_object_set_new(o, key, json_string(text));
 }
 
-static void print_json(const case_file *c, const check_found *found, const plan_file *plan,
-                       const issue_list *issues)
+static void print_json(const case_file *c, const check_found *found, const plan_file *plan, const issue_list *issues)
 {
     json_t *list = json_array(), *surfaces = json_object();
     for (int i = 0; i < issues->count; i++) {
@@ -83,15 +72,13 @@ static void print_json(const case_file *c, const check_found *found, const plan_
         if (found->mesh[i].vertex_count)
             json_object_set_new(surfaces, case_surface_name((case_surface)i),
                                 json_pack("{s:s, s:i, s:i, s:i, s:i, s:f}", "file", c->surface[i], "vertices",
-                                          found->mesh[i].vertex_count, "triangles",
-                                          found->mesh[i].triangle_count, "open_edges", found->open_edges[i],
-                                          "crowded_edges", found->crowded_edges[i], "diagonal_mm",
-                                          found->diagonal_mm[i]));
-    json_t *result = json_pack("{s:s, s:s, s:b, s:o, s:i}", "case", c->path, "name", c->name, "ok",
-                               issue_count(issues, ISSUE_ERROR) == 0, "surfaces", surfaces, "landmarks",
-                               found->points.count);
-    if (found->has_frame)
-        json_object_set_new(result, "frankfort_residual_mm", json_real(found->frame_residual_mm));
+                                          found->mesh[i].vertex_count, "triangles", found->mesh[i].triangle_count,
+                                          "open_edges", found->open_edges[i], "crowded_edges", found->crowded_edges[i],
+                                          "diagonal_mm", found->diagonal_mm[i]));
+    json_t *result =
+        json_pack("{s:s, s:s, s:b, s:o, s:i}", "case", c->path, "name", c->name, "ok",
+                  issue_count(issues, ISSUE_ERROR) == 0, "surfaces", surfaces, "landmarks", found->points.count);
+    if (found->has_frame) json_object_set_new(result, "frankfort_residual_mm", json_real(found->frame_residual_mm));
     if (plan) set_text(result, "plan", plan->path);
     json_object_set_new(result, "issues", list);
     command_print_json(result, "check");
@@ -115,8 +102,7 @@ int command_check(int argc, char **argv)
     check_landmarks(c, &found, &issues);
     check_planes(c, &issues);
     bool planned = in.plan_path && plan_file_read(in.plan_path, c, plan, &issues);
-    if (planned && readable && found.has_frame)
-        planned = plan_moves_make(plan, c, &found.points, &moves, &issues);
+    if (planned && readable && found.has_frame) planned = plan_moves_make(plan, c, &found.points, &moves, &issues);
     bool ok = issue_none_is_error(&issues, &e);
     command_print_issues(&in.common, &issues);
     if (in.common.json)

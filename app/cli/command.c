@@ -23,12 +23,8 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     char *end;
     long n;
     switch (key) {
-    case KEY_JSON:
-        o->json = true;
-        return 0;
-    case 'q':
-        o->quiet = true;
-        return 0;
+    case KEY_JSON: o->json = true; return 0;
+    case 'q': o->quiet = true; return 0;
     case 'j':
         n = strtol(arg, &end, 10);
         if (end == arg || *end || n < 1 || n > THREADS_MAX)
@@ -44,8 +40,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         }
         argp_error(state, "--progress=%s: must be auto, plain, json or none", arg);
         return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -148,10 +143,7 @@ static bool was_interrupted(void *context)
     return command_interrupted();
 }
 
-task command_task(const command_options *o)
-{
-    return (task){tell_progress, tell_note, was_interrupted, (void *)o};
-}
+task command_task(const command_options *o) { return (task){tell_progress, tell_note, was_interrupted, (void *)o}; }
 
 /* The second SIGINT ends the process at once. */
 __attribute__((constructor)) static void listen_for_interrupt(void)

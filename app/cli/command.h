@@ -29,12 +29,7 @@
 #include <argp.h>
 #include "geometry/json_file.h"
 
-typedef enum command_progress {
-    PROGRESS_AUTO,
-    PROGRESS_PLAIN,
-    PROGRESS_JSON,
-    PROGRESS_NONE
-} command_progress;
+typedef enum command_progress { PROGRESS_AUTO, PROGRESS_PLAIN, PROGRESS_JSON, PROGRESS_NONE } command_progress;
 
 typedef struct command_options {
     bool json;  /* --json: the result as one JSON object */

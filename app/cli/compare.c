@@ -21,7 +21,8 @@ enum { KEY_ACTUAL = 300, KEY_NO_ALIGN, KEY_NO_PICTURES, KEY_RANGE };
 static const struct argp_option options[] = {
     {"landmarks", 'l', "FILE", 0, "Landmarks of the predicted face, where it is a mesh", 0},
     {"actual-landmarks", KEY_ACTUAL, "FILE", 0, "Landmarks of the actual face, to compare them too", 0},
-    {"no-align", KEY_NO_ALIGN, NULL, 0, "Take both faces as they lie (default: aligned on forehead and nasal bridge)", 0},
+    {"no-align", KEY_NO_ALIGN, NULL, 0, "Take both faces as they lie (default: aligned on forehead and nasal bridge)",
+     0},
     {"output", 'o', "DIR", 0, "Folder for the tables, the surface with the distances and the picture", 0},
     {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the picture out", 0},
@@ -104,8 +105,7 @@ static bool write_folder(const struct input *in, const face_compare_input *what,
          *mesh = output_dir_file(&dir, "comparison.vtp"), *manifest = output_dir_file(&dir, "manifest.json");
     point_array distance = {"Signed", 1, c->signed_mm[PREDICTED]};
     bool ok = write_json(face_compare_json(what, c), record, e) && write_table(c, table, e) &&
-              mesh_write_surface_arrays(&c->skin[PREDICTED], &distance, 1, mesh, e) &&
-              write_pictures(in, &dir, c, e) &&
+              mesh_write_surface_arrays(&c->skin[PREDICTED], &distance, 1, mesh, e) && write_pictures(in, &dir, c, e) &&
               write_json(json_pack("{ss ss}", "schema", "gnathos.compare.1", "version", GNATHOS_VERSION), manifest, e);
     free(record);
     free(table);
@@ -119,11 +119,15 @@ static bool write_folder(const struct input *in, const face_compare_input *what,
 int command_compare(int argc, char **argv)
 {
     static const struct argp argp = {
-        options, parse, "PREDICTED ACTUAL",
+        options,
+        parse,
+        "PREDICTED ACTUAL",
         "Compares a predicted face (an outcome of gnathos predict, or a mesh) with an actual one (a mesh, or another "
         "outcome): the signed distance of the surfaces by region. An outcome is also held against two trivial "
         "predictions: no change, and skin that follows the bone below it.",
-        command_common, NULL, NULL};
+        command_common,
+        NULL,
+        NULL};
     struct input in = {.range_mm = 5};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};

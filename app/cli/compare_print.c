@@ -14,10 +14,7 @@ const char *face_row_name(int row)
     return row == ROW_LOWER ? "lower face" : row == ROW_FACE ? "face" : face_region_name((face_region)(row + 1));
 }
 
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
+static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
 
 static json_t *rows_json(const distance_stats row[ROW_COUNT])
 {
@@ -28,8 +25,7 @@ static json_t *rows_json(const distance_stats row[ROW_COUNT])
                             json_pack("{si si so so so so so so so}", "points", s->count, "left_out", s->left_out,
                                       "mean_mm", number(s->mean), "mean_abs_mm", number(s->mean_abs), "rms_mm",
                                       number(s->rms), "p90_abs_mm", number(s->p90), "p95_abs_mm", number(s->p95),
-                                      "share_under_1_mm", number(s->under_1), "share_under_2_mm",
-                                      number(s->under_2)));
+                                      "share_under_1_mm", number(s->under_1), "share_under_2_mm", number(s->under_2)));
     }
     return out;
 }
@@ -71,8 +67,8 @@ static json_t *alignment_json(const face_compare *c)
     for (int i = 0; i < 16; i++) json_array_append_new(matrix, json_real(m[i]));
     return json_pack("{ss so sf si si si sf sf}", "region", "forehead and nasal bridge, above N", "matrix", matrix,
                      "turn_deg", rigid_angle(&c->fit.move) * (180 / acos(-1.0)), "points", c->fit.points, "used",
-                     c->fit.used, "iterations", c->fit.iterations, "rms_before_mm", c->fit.rms_before_mm, "rms_after_mm",
-                     c->fit.rms_after_mm);
+                     c->fit.used, "iterations", c->fit.iterations, "rms_before_mm", c->fit.rms_before_mm,
+                     "rms_after_mm", c->fit.rms_after_mm);
 }
 
 /* Closer than both trivial predictions, by the mean absolute distance. */
@@ -125,7 +121,8 @@ static void print_trivial(const face_compare *c)
 /* Points of the skin; the file has the bone's as well. */
 static bool on_skin(const char *label)
 {
-    static const char *const bare[] = {"Pn", "Sn", "Al_L", "Al_R", "Ls", "Stm", "Stms", "Stmi", "Li_soft", "Ch_L", "Ch_R"};
+    static const char *const bare[] = {"Pn",   "Sn",   "Al_L",    "Al_R", "Ls",  "Stm",
+                                       "Stms", "Stmi", "Li_soft", "Ch_L", "Ch_R"};
     for (size_t i = 0; i < sizeof bare / sizeof *bare; i++)
         if (!strcmp(label, bare[i])) return true;
     return strchr(label, '\'') != NULL;

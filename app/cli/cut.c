@@ -26,25 +26,15 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 {
     struct input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case 'o':
-        in->target = arg;
-        return 0;
-    case 'f':
-        in->force = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "name a case");
-        return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'o': in->target = arg; return 0;
+    case 'f': in->force = true; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
+    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
     case ARGP_KEY_END:
         if (!in->target) argp_error(state, "name the folder of results with -o");
         return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -97,14 +87,13 @@ static json_t *make_report(const case_file *c, const anatomy *a)
     json_t *planes = json_array();
     for (int i = 0; i < a->cuts.plane_count; i++) {
         const cut_plane *p = &a->cuts.plane[i];
-        json_array_append_new(planes, json_pack("{ss s[fff] s[fff]}", "name", p->label, "point", p->point[0],
-                                                p->point[1], p->point[2], "normal", p->normal[0],
-                                                p->normal[1], p->normal[2]));
+        json_array_append_new(planes,
+                              json_pack("{ss s[fff] s[fff]}", "name", p->label, "point", p->point[0], p->point[1],
+                                        p->point[2], "normal", p->normal[0], p->normal[1], p->normal[2]));
     }
-    return json_pack("{ss ss sf s{so so} so so}", "schema", "gnathos.cut.1", "case", c->name, "saw_mm",
-                     c->cuts.kerf_mm, "repair", "skull", repair_report_json(&a->skull_repair), "mandible",
-                     repair_report_json(&a->mandible_repair), "cuts", cuts_report(&a->cuts), "planes",
-                     planes);
+    return json_pack("{ss ss sf s{so so} so so}", "schema", "gnathos.cut.1", "case", c->name, "saw_mm", c->cuts.kerf_mm,
+                     "repair", "skull", repair_report_json(&a->skull_repair), "mandible",
+                     repair_report_json(&a->mandible_repair), "cuts", cuts_report(&a->cuts), "planes", planes);
 }
 
 static void print_plain(const anatomy *a, const char *target)
@@ -113,13 +102,13 @@ static void print_plain(const anatomy *a, const char *target)
     printf("%-22s %12s %12s %12s %12s %10s\n", "cut (mm3)", "before", "piece", "rest", "saw", "error");
     for (int i = 0; i < r->balance_count; i++) {
         const cut_balance *b = &r->balance[i];
-        printf("%-22s %12.1f %12.1f %12.1f %12.1f %10.1e\n", b->name, b->before_mm3, b->piece_mm3,
-               b->rest_mm3, b->kerf_mm3, b->error_share);
+        printf("%-22s %12.1f %12.1f %12.1f %12.1f %10.1e\n", b->name, b->before_mm3, b->piece_mm3, b->rest_mm3,
+               b->kerf_mm3, b->error_share);
     }
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (r->volume_mm3[s] > 0)
-            printf("segment %-22s %10.2f cm3, %d triangles\n", segment_name((segment_id)s),
-                   r->volume_mm3[s] / 1000, a->segments.part[s].triangle_count);
+            printf("segment %-22s %10.2f cm3, %d triangles\n", segment_name((segment_id)s), r->volume_mm3[s] / 1000,
+                   a->segments.part[s].triangle_count);
     for (int i = 0; i < r->clearance_count; i++) {
         const cut_clearance *k = &r->clearance[i];
         printf("  %-44s %6.1f mm, at least %4.1f: %s%s\n", k->name, k->value_mm, k->limit_mm,
@@ -127,9 +116,8 @@ static void print_plain(const anatomy *a, const char *target)
     }
     for (int i = 0; i < r->fragment_count; i++) {
         const cut_fragment *f = &r->fragment[i];
-        printf("  island of %.1f mm3 from the %s: %s the %s, %.2f mm away\n", f->volume_mm3,
-               segment_name(f->from), f->from == f->to ? "stays with" : "goes to", segment_name(f->to),
-               f->gap_mm);
+        printf("  island of %.1f mm3 from the %s: %s the %s, %.2f mm away\n", f->volume_mm3, segment_name(f->from),
+               f->from == f->to ? "stays with" : "goes to", segment_name(f->to), f->gap_mm);
     }
     for (int i = 0; i < r->warning_count; i++) printf("  warning: %s\n", r->warning[i]);
     printf("%s\n", target);
@@ -140,8 +128,7 @@ static bool write_all(const case_file *c, const anatomy *a, const json_t *report
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (!write_bone(&a->segments.part[s], segment_name((segment_id)s), d, e)) return false;
     if (!write_bone(&a->segments.kerf, "kerf", d, e)) return false;
-    static const char *const reports[] = {"cut_report.json",
-                                          "manifest.json"}; /* the latter marks our folders */
+    static const char *const reports[] = {"cut_report.json", "manifest.json"}; /* the latter marks our folders */
     json_t *manifest = json_pack("{ss ss}", "schema", "gnathos.cut.1", "report", reports[0]);
     bool ok = true;
     for (int k = 0; k < 2 && ok; k++) {

@@ -18,8 +18,10 @@ static const char *const formats[] = {"glb", "obj", "ply", "stl", "vtp"};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
 static const struct argp_option options[] = {
-    {"format", 'f', "FORMAT", 0, "glb (one file, moves as the morph target \"planned\"), obj, ply, stl, or vtp "
-                                 "(with the array displacement)", 0},
+    {"format", 'f', "FORMAT", 0,
+     "glb (one file, moves as the morph target \"planned\"), obj, ply, stl, or vtp "
+     "(with the array displacement)",
+     0},
     {"output", 'o', "DIR", 0, "Folder for the files, which must not exist yet", 0},
     {0}};
 
@@ -131,11 +133,16 @@ static bool write_all(const outcome_shapes *o, const char *format, const char *f
 
 int command_export(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, "OUT",
-                                     "Write the skin and the segments of an outcome, before and as planned, for other "
-                                     "programs. Axes are LPS, lengths mm, and the files say so (SPACE=LPS); in .glb the "
-                                     "root node takes them to the metres and axes of glTF.",
-                                     command_common, NULL, NULL};
+    static const struct argp argp = {
+        options,
+        parse,
+        "OUT",
+        "Write the skin and the segments of an outcome, before and as planned, for other "
+        "programs. Axes are LPS, lengths mm, and the files say so (SPACE=LPS); in .glb the "
+        "root node takes them to the metres and axes of glTF.",
+        command_common,
+        NULL,
+        NULL};
     struct input in = {0};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};

@@ -15,13 +15,9 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 {
     help_input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, &in->topic, 1, state);
-    default:
-        return ARGP_ERR_UNKNOWN;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, &in->topic, 1, state);
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -35,20 +31,18 @@ static const struct argp argp = {NULL,
 
 static void print_overview(void)
 {
-    printf(
-        "Usage: gnathos VERB [options] ...\n\nPredicts the face after jaw surgery from a case (surfaces and "
-        "landmarks of a head)\nand a plan (moves of the bones).\n\n");
+    printf("Usage: gnathos VERB [options] ...\n\nPredicts the face after jaw surgery from a case (surfaces and "
+           "landmarks of a head)\nand a plan (moves of the bones).\n\n");
     for (int i = 0; i < verb_count; i++)
         if (verbs[i].run) printf("  %-9s %s\n", verbs[i].name, verbs[i].help);
     printf("\nKnown, but not part of this build:\n\n");
     for (int i = 0; i < verb_count; i++)
         if (!verbs[i].run) printf("  %-9s %s: %s\n", verbs[i].name, verbs[i].help, verbs[i].refusal);
-    printf(
-        "\ngnathos VERB --help lists the options of a verb; gnathos help case, plan and landmarks\nlist what "
-        "goes "
-        "into the files.\n\nExit status: 0 done, 1 internal error, 2 usage, 3 an input file is wrong, 4 the "
-        "geometry is\nunusable, 5 no convergence, 6 the plan goes beyond a limit, 7 memory, time or disk, 130 "
-        "interrupted.\n");
+    printf("\ngnathos VERB --help lists the options of a verb; gnathos help case, plan and landmarks\nlist what "
+           "goes "
+           "into the files.\n\nExit status: 0 done, 1 internal error, 2 usage, 3 an input file is wrong, 4 the "
+           "geometry is\nunusable, 5 no convergence, 6 the plan goes beyond a limit, 7 memory, time or disk, 130 "
+           "interrupted.\n");
 }
 
 static void print_landmarks(void)
@@ -110,7 +104,6 @@ int command_help(int argc, char **argv)
     if (near >= 0)
         fprintf(stderr, "gnathos: no help on \"%s\"; did you mean \"%s\"?\n", in.topic, names[near]);
     else
-        fprintf(stderr, "gnathos: no help on \"%s\"; topics are case, plan, landmarks and the verbs\n",
-                in.topic);
+        fprintf(stderr, "gnathos: no help on \"%s\"; topics are case, plan, landmarks and the verbs\n", in.topic);
     return ERR_USAGE;
 }

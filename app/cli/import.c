@@ -31,8 +31,8 @@ typedef struct import_input {
 } import_input;
 
 static const struct argp_option options[] = {
-    {NULL, 0, NULL, 0,
-     "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb), or labels of --labels", 1},
+    {NULL, 0, NULL, 0, "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb), or labels of --labels",
+     1},
     {"skin", KEY_SKIN, "FROM", 0, "Skin of the head; may be open at neck, mouth, eyes and nostrils", 1},
     {"skull", KEY_SKULL, "FROM", 0, "Skull with the maxilla", 1},
     {"mandible", KEY_MANDIBLE, "FROM", 0, "Mandible", 1},
@@ -72,51 +72,21 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 {
     import_input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case KEY_SKIN:
-        in->p.from[CASE_SKIN] = arg;
-        return 0;
-    case KEY_SKULL:
-        in->p.from[CASE_SKULL] = arg;
-        return 0;
-    case KEY_MANDIBLE:
-        in->p.from[CASE_MANDIBLE] = arg;
-        return 0;
-    case KEY_UPPER:
-        in->p.from[CASE_UPPER_TEETH] = arg;
-        return 0;
-    case KEY_LOWER:
-        in->p.from[CASE_LOWER_TEETH] = arg;
-        return 0;
-    case KEY_LANDMARKS:
-        in->p.landmarks = arg;
-        return 0;
-    case KEY_NAME:
-        in->p.name = arg;
-        return 0;
-    case KEY_LABELS:
-        in->p.labels = arg;
-        return 0;
-    case KEY_PRESET:
-        in->p.preset = arg;
-        return 0;
-    case KEY_CT:
-        in->p.ct = arg;
-        return 0;
-    case KEY_HU:
-        in->p.skin_hu = number(arg, -1000, 3000, "skin-hu", state);
-        return 0;
-    case KEY_SEAL:
-        in->p.seal_mm = number(arg, 0, 40, "seal", state);
-        return 0;
-    case KEY_EDGE:
-        in->p.mesh.edge_mm = number(arg, 0.3, 10, "edge", state);
-        return 0;
-    case 'o':
-        in->folder = arg;
-        return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case KEY_SKIN: in->p.from[CASE_SKIN] = arg; return 0;
+    case KEY_SKULL: in->p.from[CASE_SKULL] = arg; return 0;
+    case KEY_MANDIBLE: in->p.from[CASE_MANDIBLE] = arg; return 0;
+    case KEY_UPPER: in->p.from[CASE_UPPER_TEETH] = arg; return 0;
+    case KEY_LOWER: in->p.from[CASE_LOWER_TEETH] = arg; return 0;
+    case KEY_LANDMARKS: in->p.landmarks = arg; return 0;
+    case KEY_NAME: in->p.name = arg; return 0;
+    case KEY_LABELS: in->p.labels = arg; return 0;
+    case KEY_PRESET: in->p.preset = arg; return 0;
+    case KEY_CT: in->p.ct = arg; return 0;
+    case KEY_HU: in->p.skin_hu = number(arg, -1000, 3000, "skin-hu", state); return 0;
+    case KEY_SEAL: in->p.seal_mm = number(arg, 0, 40, "seal", state); return 0;
+    case KEY_EDGE: in->p.mesh.edge_mm = number(arg, 0.3, 10, "edge", state); return 0;
+    case 'o': in->folder = arg; return 0;
     case KEY_FRAME:
         if (!strcmp(arg, "lps"))
             in->p.space = MESH_SPACE_LPS;
@@ -136,8 +106,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         if (!in->folder) argp_error(state, "name the new case folder with -o");
         if (in->p.preset && !in->p.labels) argp_error(state, "--preset needs --labels");
         return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -160,37 +129,35 @@ static void print_plain(const import_result *r, const char *folder)
         if (!part->mesh.vertex_count) continue;
         printf("  %-12s %s%s\n", case_surface_name((case_surface)i), part->source,
                part->thresholded ? " (thresholded skin)" : "");
-        printf("  %12s %d vertices, %d triangles, %d pieces, %.1f mm corner to corner\n", "",
-               part->mesh.vertex_count, part->mesh.triangle_count, part->components, part->diagonal_mm);
-        printf("  %12s %d holes (%d open edges), %d crowded edges, %d%s self-intersections\n", "",
-               part->holes, part->open_edges, part->crowded_edges, part->self_intersections,
+        printf("  %12s %d vertices, %d triangles, %d pieces, %.1f mm corner to corner\n", "", part->mesh.vertex_count,
+               part->mesh.triangle_count, part->components, part->diagonal_mm);
+        printf("  %12s %d holes (%d open edges), %d crowded edges, %d%s self-intersections\n", "", part->holes,
+               part->open_edges, part->crowded_edges, part->self_intersections,
                part->self_intersections >= IMPORT_INTERSECTIONS_MOST ? " or more" : "");
         if (part->read.welded_vertices || part->read.dropped_triangles || part->read.split_polygons)
-            printf("  %12s changed: %d vertices welded, %d degenerate triangles dropped, %d polygons split\n",
-                   "", part->read.welded_vertices, part->read.dropped_triangles, part->read.split_polygons);
+            printf("  %12s changed: %d vertices welded, %d degenerate triangles dropped, %d polygons split\n", "",
+                   part->read.welded_vertices, part->read.dropped_triangles, part->read.split_polygons);
         if (part->read.ras) printf("  %12s changed: turned from RAS to LPS\n", "");
         if (part->from_labels)
             printf("  %12s changed: %d islands and %d small pieces dropped, %lld voxels of cavities filled, "
                    "%lld sealed, %d "
                    "crowded edges parted; %.0f mm^3 of voxels, %.0f in the surface\n",
                    "", part->islands_dropped, part->made.pieces_dropped, (long long)part->cavity_voxels,
-                   (long long)part->sealed_voxels, part->made.crowded_edges, part->label_mm3,
-                   part->volume_mm3);
+                   (long long)part->sealed_voxels, part->made.crowded_edges, part->label_mm3, part->volume_mm3);
     }
     if (r->has_points) printf("  %-12s %d points\n", "landmarks", r->points.count);
 }
 
 static json_t *part_json(const import_part *part)
 {
-    json_t *o = json_pack(
-        "{s:s, s:b, s:b, s:b, s:b, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f}", "source",
-        part->source, "from_labels", part->from_labels, "thresholded", part->thresholded, "tagged",
-        part->read.tagged, "turned_from_ras", part->read.ras, "vertices", part->mesh.vertex_count,
-        "triangles", part->mesh.triangle_count, "pieces", part->components, "holes", part->holes,
-        "open_edges", part->open_edges, "crowded_edges", part->crowded_edges, "self_intersections",
-        part->self_intersections, "welded_vertices", part->read.welded_vertices, "dropped_triangles",
-        part->read.dropped_triangles, "split_polygons", part->read.split_polygons, "diagonal_mm",
-        part->diagonal_mm, "area_mm2", part->area_mm2);
+    json_t *o = json_pack("{s:s, s:b, s:b, s:b, s:b, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f}",
+                          "source", part->source, "from_labels", part->from_labels, "thresholded", part->thresholded,
+                          "tagged", part->read.tagged, "turned_from_ras", part->read.ras, "vertices",
+                          part->mesh.vertex_count, "triangles", part->mesh.triangle_count, "pieces", part->components,
+                          "holes", part->holes, "open_edges", part->open_edges, "crowded_edges", part->crowded_edges,
+                          "self_intersections", part->self_intersections, "welded_vertices", part->read.welded_vertices,
+                          "dropped_triangles", part->read.dropped_triangles, "split_polygons",
+                          part->read.split_polygons, "diagonal_mm", part->diagonal_mm, "area_mm2", part->area_mm2);
     if (!part->open_edges) json_object_set_new(o, "volume_mm3", json_real(part->volume_mm3));
     if (part->from_labels) {
         json_object_set_new(o, "islands_dropped", json_integer(part->islands_dropped));
@@ -210,8 +177,8 @@ static void print_json(const import_result *r, const char *folder, const issue_l
         if (r->part[i].mesh.vertex_count)
             json_object_set_new(surfaces, case_surface_name((case_surface)i), part_json(&r->part[i]));
     for (int i = 0; i < notes->count; i++)
-        json_array_append_new(list, json_pack("{s:s, s:s}", "level", issue_level_name(notes->item[i].level),
-                                              "text", notes->item[i].text));
+        json_array_append_new(list, json_pack("{s:s, s:s}", "level", issue_level_name(notes->item[i].level), "text",
+                                              notes->item[i].text));
     json_t *result = json_pack("{s:s, s:o, s:i, s:i, s:o}", "case", folder, "surfaces", surfaces, "landmarks",
                                r->points.count, "landmarks_skipped", r->points_skipped, "issues", list);
     if (r->contacts >= 0) json_object_set_new(result, "jaw_contact_voxels", json_integer(r->contacts));

@@ -9,17 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum {
-    KEY_NORM = 512,
-    KEY_SEX,
-    KEY_SEED,
-    KEY_CLASS,
-    KEY_OPEN_BITE,
-    KEY_ASYMMETRY,
-    KEY_SET,
-    KEY_COARSE,
-    KEY_MEASURES
-};
+enum { KEY_NORM = 512, KEY_SEX, KEY_SEED, KEY_CLASS, KEY_OPEN_BITE, KEY_ASYMMETRY, KEY_SET, KEY_COARSE, KEY_MEASURES };
 
 typedef struct new_input {
     command_options common;
@@ -30,8 +20,7 @@ typedef struct new_input {
 } new_input;
 
 static const struct argp_option options[] = {
-    {"norm", KEY_NORM, NULL, 0, "Make a head from published norms; where absent, CASE holds a recipe.json",
-     1},
+    {"norm", KEY_NORM, NULL, 0, "Make a head from published norms; where absent, CASE holds a recipe.json", 1},
     {"sex", KEY_SEX, "f|m", 0, "Norms of women (where absent) or men", 1},
     {"seed", KEY_SEED, "N", 0, "Draw the measures from their spreads; 0 (where absent) takes the means", 1},
     {"class", KEY_CLASS, "1|2|3", 0, "Skeletal class, from the size and place of the jaws", 1},
@@ -85,67 +74,45 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     new_input *in = state->input;
     if (key >= KEY_SEX && key <= KEY_COARSE) in->asked = true;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case KEY_NORM:
-        in->norm = true;
-        return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case KEY_NORM: in->norm = true; return 0;
     case KEY_SEX:
         if (strcmp(arg, "f") && strcmp(arg, "m")) argp_error(state, "--sex %s: must be f or m", arg);
         in->p.sex = arg[0] == 'm' ? NORM_MALE : NORM_FEMALE;
         return 0;
-    case KEY_SEED:
-        in->p.seed = (uint64_t)whole(arg, "--seed", 0, INT64_MAX, state);
-        return 0;
-    case KEY_CLASS:
-        in->p.skeletal_class = (int)whole(arg, "--class", 1, 3, state);
-        return 0;
-    case KEY_OPEN_BITE:
-        in->p.open_bite_mm = number(arg, "--open-bite", state);
-        return 0;
-    case KEY_ASYMMETRY:
-        in->p.asymmetry_mm = number(arg, "--asymmetry", state);
-        return 0;
-    case KEY_COARSE:
-        in->p.coarseness = number(arg, "--coarseness", state);
-        return 0;
-    case KEY_SET:
-        set_measure(in, arg, state);
-        return 0;
-    case KEY_MEASURES:
-        in->list = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, &in->folder, 1, state);
+    case KEY_SEED: in->p.seed = (uint64_t)whole(arg, "--seed", 0, INT64_MAX, state); return 0;
+    case KEY_CLASS: in->p.skeletal_class = (int)whole(arg, "--class", 1, 3, state); return 0;
+    case KEY_OPEN_BITE: in->p.open_bite_mm = number(arg, "--open-bite", state); return 0;
+    case KEY_ASYMMETRY: in->p.asymmetry_mm = number(arg, "--asymmetry", state); return 0;
+    case KEY_COARSE: in->p.coarseness = number(arg, "--coarseness", state); return 0;
+    case KEY_SET: set_measure(in, arg, state); return 0;
+    case KEY_MEASURES: in->list = true; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, &in->folder, 1, state);
     case ARGP_KEY_END:
         if (!in->folder && !in->list) argp_error(state, "name the case folder to make");
-        if (in->asked && !in->norm)
-            argp_error(state, "this option belongs to --norm; without it the recipe decides");
+        if (in->asked && !in->norm) argp_error(state, "this option belongs to --norm; without it the recipe decides");
         return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
-static const struct argp argp = {
-    options,
-    parse,
-    "CASE",
-    "Makes a case of a head that nobody has: skin, skull, mandible, teeth and landmarks "
-    "built from published norms. CASE is a new folder with --norm, or an existing one "
-    "with a recipe.json, whose meshes are then made again.",
-    command_common,
-    NULL,
-    NULL};
+static const struct argp argp = {options,
+                                 parse,
+                                 "CASE",
+                                 "Makes a case of a head that nobody has: skin, skull, mandible, teeth and landmarks "
+                                 "built from published norms. CASE is a new folder with --norm, or an existing one "
+                                 "with a recipe.json, whose meshes are then made again.",
+                                 command_common,
+                                 NULL,
+                                 NULL};
 
 static int list_measures(void)
 {
     printf("%-20s %14s %14s  %-20s %s\n", "measure", "women", "men", "source", "meaning");
     for (int i = 0; i < MEASURE_COUNT; i++) {
         const measure *m = &measures[i];
-        printf("%-20s %6.1f +- %4.1f %6.1f +- %4.1f  %-20s %s\n", m->name, m->mean[0], m->sd[0], m->mean[1],
-               m->sd[1], m->source, m->help);
+        printf("%-20s %6.1f +- %4.1f %6.1f +- %4.1f  %-20s %s\n", m->name, m->mean[0], m->sd[0], m->mean[1], m->sd[1],
+               m->source, m->help);
     }
     return 0;
 }

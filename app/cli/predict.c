@@ -63,7 +63,6 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     }
 }
 
-
 static double seconds(void)
 {
     struct timespec t;
@@ -193,8 +192,16 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
         bone_shapes_free(&bones);
         return false;
     }
-    outcome o = {.patient = c, .plan = &plan, .moves = &moves, .prepared = p, .tissue = &flesh, .solve = &q, .scene = &scene,
-                 .prepare_s = prepare_s, .solve_s = seconds() - start, .limits = &limits,
+    outcome o = {.patient = c,
+                 .plan = &plan,
+                 .moves = &moves,
+                 .prepared = p,
+                 .tissue = &flesh,
+                 .solve = &q,
+                 .scene = &scene,
+                 .prepare_s = prepare_s,
+                 .solve_s = seconds() - start,
+                 .limits = &limits,
                  .contact = in->contact};
     *solved = q.outcome == SOLVED;
     carried_landmarks points = {0};
@@ -215,7 +222,8 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     }
     judge_tissue(c, p, &q, o.points, &limits);
     ok = ok && write_all(in, &o, dir, e) && output_dir_close(dir, e);
-    if (ok && in->common.json) command_print_json(outcome_json(&o), "predict");
+    if (ok && in->common.json)
+        command_print_json(outcome_json(&o), "predict");
     else if (ok) {
         outcome_print(&o);
         if (*solved) printf("Results in %s\n", in->out);
@@ -232,7 +240,8 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
 
 int command_predict(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, "CASE", "Predict the face after a plan.", command_common, NULL, NULL};
+    static const struct argp argp = {options,        parse, "CASE", "Predict the face after a plan.",
+                                     command_common, NULL,  NULL};
     struct input in = {0};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     const task watch = command_task(&in.common);
@@ -261,8 +270,10 @@ int command_predict(int argc, char **argv)
         return command_fail(&e);
     }
     if (!solved) {
-        err_set(&e, ERR_NOT_CONVERGED, "%s: the solve did not reach equilibrium, so there is no face to show; %s/outcome.json "
-                "has its record", in.plan, in.out);
+        err_set(&e, ERR_NOT_CONVERGED,
+                "%s: the solve did not reach equilibrium, so there is no face to show; %s/outcome.json "
+                "has its record",
+                in.plan, in.out);
         return command_fail(&e);
     }
     return 0;

@@ -28,9 +28,14 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 
 int command_prepare(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, "CASE",
-                                     "Repair and cut the bones of a case and mesh its soft tissue, once; plans reuse it.",
-                                     command_common, NULL, NULL};
+    static const struct argp argp = {
+        options,
+        parse,
+        "CASE",
+        "Repair and cut the bones of a case and mesh its soft tissue, once; plans reuse it.",
+        command_common,
+        NULL,
+        NULL};
     struct input in = {0};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     const task watch = command_task(&in.common);
@@ -40,8 +45,8 @@ int command_prepare(int argc, char **argv)
     if (!case_file_load(in.case_path[0], &c, &e) || !prepared_get(&c, in.cache, &watch, &p, &e))
         return command_fail(&e);
     if (in.common.json)
-        command_print_json(json_pack("{ss sb so}", "hash", p.hash, "reused", p.reused, "prepared",
-                                     json_incref(p.report)), "prepare");
+        command_print_json(
+            json_pack("{ss sb so}", "hash", p.hash, "reused", p.reused, "prepared", json_incref(p.report)), "prepare");
     else {
         printf("%s: %s, %.16s\n", c.name, p.reused ? "was prepared already" : "prepared", p.hash);
         prepared_report_print(p.report);

@@ -54,8 +54,7 @@ static const struct argp_option options[] = {
     {"turntable", KEY_TURNTABLE, "N", 0, "N pictures all around the head, beginning at the first view", 1},
     {"zoom", KEY_ZOOM, "FACTOR", 0, "1 (default): the face fills the picture", 1},
     {"centre", KEY_CENTRE, "LABEL", 0, "The landmark in the middle of the picture", 1},
-    {"perspective", KEY_PERSPECTIVE, "DEG", 0, "Full vertical angle (default: none, one scale everywhere)",
-     1},
+    {"perspective", KEY_PERSPECTIVE, "DEG", 0, "Full vertical angle (default: none, one scale everywhere)", 1},
     {"range", KEY_RANGE, "END", 0,
      "End of the colour range in mm, or % of stretch (from the data; signed: 10, to both sides)", 2},
     {"skin-opacity", KEY_OPACITY, "0..1", 0, "Of the skin over the bones (0.25)", 2},
@@ -82,39 +81,26 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     char rest;
     err e = {0};
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case 'o':
-        in->out = arg;
-        return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'o': in->out = arg; return 0;
     case 's':
-        if (sscanf(arg, "%dx%d%c", &in->width, &in->height, &rest) != 2 || in->width < 100 ||
-            in->height < 100 || in->width > 8192 || in->height > 8192)
+        if (sscanf(arg, "%dx%d%c", &in->width, &in->height, &rest) != 2 || in->width < 100 || in->height < 100 ||
+            in->width > 8192 || in->height > 8192)
             argp_error(state, "--size must be WxH with 100 to 8192 pixels each, got %s", arg);
         return 0;
-    case KEY_SHOW:
-        take(order_show(arg, &in->order, &e), &e, state);
-        return 0;
-    case KEY_POSE:
-        take(order_pose(arg, &in->order, &e), &e, state);
-        return 0;
-    case KEY_VIEW:
-        take(order_view_add(arg, &in->order, &e), &e, state);
-        return 0;
+    case KEY_SHOW: take(order_show(arg, &in->order, &e), &e, state); return 0;
+    case KEY_POSE: take(order_pose(arg, &in->order, &e), &e, state); return 0;
+    case KEY_VIEW: take(order_view_add(arg, &in->order, &e), &e, state); return 0;
     case KEY_TURNTABLE:
         if (!number_of(arg, 1, ORDER_FRAMES_MAX, &number) || number != (int)number)
-            argp_error(state, "--turntable must be a whole number from 2 to %d, got %s", ORDER_FRAMES_MAX,
-                       arg);
+            argp_error(state, "--turntable must be a whole number from 2 to %d, got %s", ORDER_FRAMES_MAX, arg);
         in->order.turntable = (int)number;
         return 0;
     case KEY_ZOOM:
         if (!number_of(arg, 0.1 - 1e-12, 50, &in->style.zoom))
             argp_error(state, "--zoom must lie in 0.1 to 50, got %s", arg);
         return 0;
-    case KEY_CENTRE:
-        in->style.centre = arg;
-        return 0;
+    case KEY_CENTRE: in->style.centre = arg; return 0;
     case KEY_PERSPECTIVE:
         if (!number_of(arg, 1 - 1e-12, 90, &in->style.perspective_deg))
             argp_error(state, "--perspective must lie in 1 to 90 degrees, got %s", arg);
@@ -131,16 +117,10 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         if (strcmp(arg, "f") != 0 && strcmp(arg, "m") != 0) argp_error(state, "--sex is f or m, not %s", arg);
         in->style.sex = *arg;
         return 0;
-    case KEY_NO_LABELS:
-        in->style.labels = false;
-        return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, in->folder, 1, state);
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "name the folder of an outcome");
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    case KEY_NO_LABELS: in->style.labels = false; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, in->folder, 1, state);
+    case ARGP_KEY_NO_ARGS: argp_error(state, "name the folder of an outcome"); return 0;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -159,8 +139,7 @@ static const char *text_of(const json_t *o, const char *key)
 
 static bool read_outcome(const char *folder, drawn *d, err *e)
 {
-    return outcome_record_read(folder, &d->record, e) &&
-           outcome_skin_read(folder, false, &d->skin_before, e) &&
+    return outcome_record_read(folder, &d->record, e) && outcome_skin_read(folder, false, &d->skin_before, e) &&
            outcome_skin_read(folder, true, &d->skin_after, e) &&
            outcome_segments_read(folder, &d->record, &d->at_rest, d->move, e);
 }
@@ -179,8 +158,7 @@ static bool draw_order(const struct input *in, gallery *g, const char *folder, j
         order_picture p = order_picture_at(&in->order, i);
         sheet what = {p.title, p.panels, p.panel_count, p.panel_count, in->width, in->height};
         char path[1400];
-        if (command_interrupted())
-            return err_set(e, ERR_INTERRUPTED, "interrupted after %d of %d pictures", i, count);
+        if (command_interrupted()) return err_set(e, ERR_INTERRUPTED, "interrupted after %d of %d pictures", i, count);
         snprintf(path, sizeof path, "%s/%s.png", folder, p.name);
         command_progress_at(&in->common, "drawing the pictures", (double)i / count);
         if (!gallery_write(g, &what, path, e)) return false;
@@ -226,8 +204,8 @@ static bool draw(const struct input *in, const drawn *d, const char *folder, jso
     bool made = ok && mkdir(folder, 0777) == 0;
     if (ok && !made && errno != EEXIST)
         ok = err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made: %s", strerror(errno));
-    ok = ok && (order_is_standard(&in->order) ? draw_standard(in, g, folder, files, e)
-                                              : draw_order(in, g, folder, files, e));
+    ok = ok &&
+         (order_is_standard(&in->order) ? draw_standard(in, g, folder, files, e) : draw_order(in, g, folder, files, e));
     if (!ok && made) rmdir(folder); /* goes if no picture is in it */
     gallery_close(&g);
     pictures_subject_free(&p);
@@ -239,8 +217,8 @@ static void print(const struct input *in, json_t *files, double load_s, double d
     size_t i;
     json_t *file;
     if (in->common.json) {
-        command_print_json(json_pack("{sO s{sf sf sf}}", "files", files, "seconds", "load", load_s, "draw",
-                                     draw_s, "draw_cpu", draw_cpu_s),
+        command_print_json(json_pack("{sO s{sf sf sf}}", "files", files, "seconds", "load", load_s, "draw", draw_s,
+                                     "draw_cpu", draw_cpu_s),
                            "render");
         return;
     }
@@ -272,8 +250,7 @@ int command_render(int argc, char **argv)
     double loaded = seconds(CLOCK_MONOTONIC), cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
     ok = ok && draw(&in, &d, folder, files, &e);
     if (ok)
-        print(&in, files, loaded - start, seconds(CLOCK_MONOTONIC) - loaded,
-              seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu);
+        print(&in, files, loaded - start, seconds(CLOCK_MONOTONIC) - loaded, seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu);
     json_decref(files);
     outcome_record_free(&d.record);
     surface_free(&d.skin_before);

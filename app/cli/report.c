@@ -18,11 +18,16 @@ enum { KEY_NAME = 300, KEY_NO_PICTURES, KEY_AUDIT, PATH_SIZE = 4096 };
 
 static const struct argp_option options[] = {
     {"output", 'o', "FILE.html", 0, "The page (OUT/report.html)", 0},
-    {"audit", KEY_AUDIT, "FILE", 0, "What gnathos audit wrote about the case, or with --json about the plan (OUT/audit.json "
-                                    "where it is there)", 0},
-    {"name", KEY_NAME, NULL, 0, "Show the names of case and plan and all other text that the user wrote; without it the "
-                                "page holds none of them", 0},
-    {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave out the stills, which are for paper and for browsers without WebGL", 0},
+    {"audit", KEY_AUDIT, "FILE", 0,
+     "What gnathos audit wrote about the case, or with --json about the plan (OUT/audit.json "
+     "where it is there)",
+     0},
+    {"name", KEY_NAME, NULL, 0,
+     "Show the names of case and plan and all other text that the user wrote; without it the "
+     "page holds none of them",
+     0},
+    {"no-pictures", KEY_NO_PICTURES, NULL, 0,
+     "Leave out the stills, which are for paper and for browsers without WebGL", 0},
     {0}};
 
 static error_t parse(int key, char *arg, struct argp_state *state)
@@ -33,7 +38,8 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
     case 'o':
         n = strlen(arg);
-        if (n < 6 || strcmp(arg + n - 5, ".html") != 0) argp_error(state, "-o %s: the page's name must end in .html", arg);
+        if (n < 6 || strcmp(arg + n - 5, ".html") != 0)
+            argp_error(state, "-o %s: the page's name must end in .html", arg);
         in->out = arg;
         return 0;
     case KEY_AUDIT: in->audit = arg; return 0;
@@ -85,10 +91,15 @@ static bool make(const struct input *in, const char *path, size_t *bytes, err *e
 
 int command_report(int argc, char **argv)
 {
-    static const struct argp argp = {options, parse, "OUT",
-                                     "Write one page about an outcome of gnathos predict, to be opened in a browser "
-                                     "from disk: the face before and as predicted in 3-D, measurements, and the evidence.",
-                                     command_common, NULL, NULL};
+    static const struct argp argp = {
+        options,
+        parse,
+        "OUT",
+        "Write one page about an outcome of gnathos predict, to be opened in a browser "
+        "from disk: the face before and as predicted in 3-D, measurements, and the evidence.",
+        command_common,
+        NULL,
+        NULL};
     struct input in = {0};
     argp_parse(&argp, argc, argv, 0, NULL, &in);
     err e = {0};

@@ -30,33 +30,19 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     struct input *in = state->input;
     char *end;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case 'o':
-        in->out = arg;
-        return 0;
-    case 'f':
-        in->force = true;
-        return 0;
-    case KEY_LIST:
-        in->list = true;
-        return 0;
-    case KEY_ONLY:
-        in->only = arg;
-        return 0;
-    case KEY_QUICK:
-        in->quick = true;
-        return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'o': in->out = arg; return 0;
+    case 'f': in->force = true; return 0;
+    case KEY_LIST: in->list = true; return 0;
+    case KEY_ONLY: in->only = arg; return 0;
+    case KEY_QUICK: in->quick = true; return 0;
     case KEY_PATIENCE:
         in->patience = strtod(arg, &end);
         if (end == arg || *end || !(in->patience > 0 && in->patience <= 1000))
             argp_error(state, "--patience %s: must be a number above 0, at most 1000", arg);
         return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, NULL, 0, state);
-    default:
-        return ARGP_ERR_UNKNOWN;
+    case ARGP_KEY_ARG: return command_take(arg, NULL, 0, state);
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -87,8 +73,7 @@ static bool run_all(const struct input *in, const stress_case *const *c, stress_
     return true;
 }
 
-static int conclude(const struct input *in, const stress_case *const *c, const stress_result *r, int count,
-                    err *e)
+static int conclude(const struct input *in, const stress_case *const *c, const stress_result *r, int count, err *e)
 {
     int wrong = 0;
     for (int i = 0; i < count; i++)
@@ -121,10 +106,9 @@ int command_stress(int argc, char **argv)
     int status = 0;
     if (in.list) {
         for (int i = 0; i < count; i++) printf("%-24s %s\n", chosen[i]->name, chosen[i]->what);
-    } else if ((!in.out || output_dir_open(in.out, in.force, &dir, &e)) &&
-               run_all(&in, chosen, results, count, &e) &&
-               (!in.out || (stress_write(chosen, results, count, dir.part.temporary, &e) &&
-                            output_dir_close(&dir, &e)))) {
+    } else if ((!in.out || output_dir_open(in.out, in.force, &dir, &e)) && run_all(&in, chosen, results, count, &e) &&
+               (!in.out ||
+                (stress_write(chosen, results, count, dir.part.temporary, &e) && output_dir_close(&dir, &e)))) {
         status = conclude(&in, chosen, results, count, &e);
     } else {
         if (in.out) output_dir_abandon(&dir);

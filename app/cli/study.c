@@ -29,32 +29,18 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 {
     struct input *in = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        return 0;
-    case 'p':
-        in->plan = arg;
-        return 0;
-    case 'o':
-        in->out = arg;
-        return 0;
-    case KEY_RATIOS:
-        in->ratios = true;
-        return 0;
-    case KEY_CACHE:
-        in->cache = arg;
-        return 0;
-    case ARGP_KEY_ARG:
-        return command_take(arg, in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "name a case");
-        return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
+    case 'p': in->plan = arg; return 0;
+    case 'o': in->out = arg; return 0;
+    case KEY_RATIOS: in->ratios = true; return 0;
+    case KEY_CACHE: in->cache = arg; return 0;
+    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
+    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
     case ARGP_KEY_END:
         if (!in->out) argp_error(state, "name a folder for the study with -o");
         if (in->ratios && in->plan) argp_error(state, "--ratios has its own moves: leave --plan out");
         return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
+    default: return ARGP_ERR_UNKNOWN;
     }
 }
 
@@ -85,8 +71,7 @@ static bool open_folder(const char *path, err *e)
     bool ours = schema && !strcmp(schema, "gnathos.study.1");
     json_file_free(&f);
     if (!ours)
-        return err_at(e, ERR_INPUT, path, 0, NULL,
-                      "holds other results of gnathos; name a new or an empty folder");
+        return err_at(e, ERR_INPUT, path, 0, NULL, "holds other results of gnathos; name a new or an empty folder");
     snprintf(sub, sizeof sub, "%s/runs", path);
     if (!make_folder(sub, e)) return false;
     snprintf(sub, sizeof sub, "%s/prepared", path);
@@ -104,8 +89,7 @@ static bool run_ladder(const struct input *in, study_table *t, err *e)
     command_progress_at(&in->common, "a tube with an exact answer", 0.98);
     if (!study_tubes(t->task, t->tube, e)) return false;
     return t->run[study_reference].result.solved ||
-           err_set(e, ERR_NOT_CONVERGED,
-                   "the reference, %s, has no result (%s): there is nothing to compare with",
+           err_set(e, ERR_NOT_CONVERGED, "the reference, %s, has no result (%s): there is nothing to compare with",
                    study_rungs[study_reference].name, t->run[study_reference].result.text);
 }
 
@@ -155,12 +139,15 @@ int command_study(int argc, char **argv)
     snprintf(own_plan, sizeof own_plan, "%s/plan.json", c.folder);
     const char *plan_path = in.plan ? in.plan : own_plan;
     bool ok = landmarks_read(c.landmarks, &points, NULL, &e) &&
-              (in.ratios || plan_moves_load(plan_path, &c, &points, &plan, &moves, &e)) &&
-              open_folder(in.out, &e);
+              (in.ratios || plan_moves_load(plan_path, &c, &points, &plan, &moves, &e)) && open_folder(in.out, &e);
     landmarks_free(&points);
     if (!ok) return command_fail(&e);
-    study_task task = {
-        .patient = &c, .watch = &watch, .load_steps = plan.load_steps, .folder = in.out, .cache = in.cache, .name = "plan"};
+    study_task task = {.patient = &c,
+                       .watch = &watch,
+                       .load_steps = plan.load_steps,
+                       .folder = in.out,
+                       .cache = in.cache,
+                       .name = "plan"};
     memcpy(task.motion, moves.move, sizeof task.motion);
     ok = in.ratios ? ratios(&in, &task, &e) : study(&in, &task, *plan.name ? plan.name : "plan", &e);
     return ok ? 0 : command_fail(&e);

@@ -46,7 +46,9 @@ static void make_kinds(const feasible_map *m, struct kinds *out, int32_t *kind)
             const limit *l = &limit_default[seen[i][1]];
             snprintf(out->text[k], TEXT, "%s: %s%s", level == VERDICT_STOP ? "stop" : "caution",
                      seen[i][1] >= LIMIT_SOLVED ? "soft tissue, " : "", l->what);
-            out->item[k] = (chart_kind){.pattern = level == VERDICT_STOP ? CHART_PLAIN : i < COLOURS ? CHART_DOTS : CHART_STRIPES,
+            out->item[k] = (chart_kind){.pattern = level == VERDICT_STOP ? CHART_PLAIN
+                                                   : i < COLOURS         ? CHART_DOTS
+                                                                         : CHART_STRIPES,
                                         .rank = level,
                                         .letter = {(char)((level == VERDICT_STOP ? 'A' : 'a') + i % 26)},
                                         .text = out->text[k]};
@@ -61,13 +63,17 @@ static const char *title_of(const control *x, char text[TEXT])
 {
     static const struct {
         const char *name, *title;
-    } known[] = {{"maxilla_advance_mm", "maxilla forwards"},  {"maxilla_impaction_mm", "maxilla upwards (impaction)"},
-                 {"mandible_advance_mm", "mandible forwards"}, {"chin_advance_mm", "chin forwards"}};
+    } known[] = {{"maxilla_advance_mm", "maxilla forwards"},
+                 {"maxilla_impaction_mm", "maxilla upwards (impaction)"},
+                 {"mandible_advance_mm", "mandible forwards"},
+                 {"chin_advance_mm", "chin forwards"}};
     const char *title = NULL;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (!strcmp(known[i].name, x->name)) title = known[i].title;
-    if (title) snprintf(text, TEXT, "%s, mm", title);
-    else snprintf(text, TEXT, "%s", x->name);
+    if (title)
+        snprintf(text, TEXT, "%s, mm", title);
+    else
+        snprintf(text, TEXT, "%s", x->name);
     return text;
 }
 
@@ -106,15 +112,18 @@ static bool draw(const audit *a, int request, const char *path, err *e)
     for (int k = 0; k < 2; k++) {
         int c = m->params.axis[k];
         x[k] = &a->settings.control[c];
-        axis[k] = (chart_axis){.title = title_of(x[k], titles[k]), .low = audit_value(a, c, m->params.low[k]),
-                               .step = a->settings.spacing, .count = m->count[k]};
+        axis[k] = (chart_axis){.title = title_of(x[k], titles[k]),
+                               .low = audit_value(a, c, m->params.low[k]),
+                               .step = a->settings.spacing,
+                               .count = m->count[k]};
     }
     char always[1024] = "";
     for (int l = 0; l < LIMIT_COUNT; l++)
         if (a->throughout[l] > LIMIT_FINE) {
             size_t n = strlen(always);
-            snprintf(always + n, sizeof always - n, "%s%s (%s)", n ? "; " : "Throughout, so not drawn: ",
-                     limit_default[l].what, limit_level_name(a->throughout[l]));
+            snprintf(always + n, sizeof always - n, "%s%s (%s)",
+                     n ? "; " : "Throughout, so not drawn: ", limit_default[l].what,
+                     limit_level_name(a->throughout[l]));
         }
     bool planned = *a->base.path;
     snprintf(subtitle, sizeof subtitle, "%s, %.12s; other controls %s", a->patient->name, a->prepared->hash,
@@ -124,8 +133,8 @@ static bool draw(const audit *a, int request, const char *path, err *e)
     mark[marks++] = (chart_mark){0, 0, CHART_CROSS, "nothing moved"};
     if (planned) {
         snprintf(base, sizeof base, "the plan: %.120s", a->base.name);
-        mark[marks++] = (chart_mark){audit_value(a, m->params.axis[0], 0), audit_value(a, m->params.axis[1], 0),
-                                     CHART_RING, base};
+        mark[marks++] =
+            (chart_mark){audit_value(a, m->params.axis[0], 0), audit_value(a, m->params.axis[1], 0), CHART_RING, base};
     }
     snprintf(others, sizeof others,
              "Heavy line: where a limit stops, found to %.3g; light line: where caution begins. Colours name the limit "

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const view_word[] = {
-    "front", "left", "right", "three_quarter", "three_quarter_right", "submental", "superior", "posterior"};
+static const char *const view_word[] = {"front",     "left",     "right",    "three_quarter", "three_quarter_right",
+                                        "submental", "superior", "posterior"};
 static const camera_view view_of[] = {
     VIEW_FRONT,     VIEW_LEFT,     VIEW_RIGHT,    VIEW_THREE_QUARTER_LEFT, VIEW_THREE_QUARTER_RIGHT,
     VIEW_SUBMENTAL, VIEW_SUPERIOR, VIEW_POSTERIOR};
@@ -58,8 +58,7 @@ bool order_view_add(const char *text, render_order *o, err *e)
 {
     order_view v = {0};
     char rest;
-    if (o->view_count == ORDER_VIEWS_MAX)
-        return err_set(e, ERR_USAGE, "--view: at most %d views", ORDER_VIEWS_MAX);
+    if (o->view_count == ORDER_VIEWS_MAX) return err_set(e, ERR_USAGE, "--view: at most %d views", ORDER_VIEWS_MAX);
     for (int i = 0; i < VIEW_WORDS; i++) {
         if (strcmp(text, view_word[i])) continue;
         snprintf(v.name, sizeof v.name, "%s", text);
@@ -73,8 +72,7 @@ bool order_view_add(const char *text, render_order *o, err *e)
         return refuse("--view", text, view_word, VIEW_WORDS, e);
     if (!(fabs(v.elevation_deg) <= 90) || fabs(v.azimuth_deg) > 360 || fabs(v.roll_deg) > 360)
         return err_set(e, ERR_USAGE,
-                       "--view %s: elevation must lie in -90 to 90 degrees, azimuth and roll in -360 to 360",
-                       text);
+                       "--view %s: elevation must lie in -90 to 90 degrees, azimuth and roll in -360 to 360", text);
     int used = snprintf(v.name, sizeof v.name, "az%g_el%g", v.azimuth_deg, v.elevation_deg);
     if (v.roll_deg != 0) snprintf(v.name + used, sizeof v.name - (size_t)used, "_roll%g", v.roll_deg);
     o->view[o->view_count++] = v;
@@ -87,10 +85,7 @@ bool order_is_standard(const render_order *o)
 }
 
 /* Profiles are drawn from the left whatever view is asked for, once. */
-static bool one_view(panel_show show)
-{
-    return show == SHOW_CONTOUR || show == SHOW_TRACING;
-}
+static bool one_view(panel_show show) { return show == SHOW_CONTOUR || show == SHOW_TRACING; }
 
 static int views_of(const render_order *o, panel_show show)
 {
@@ -98,10 +93,7 @@ static int views_of(const render_order *o, panel_show show)
     return o->turntable ? o->turntable : o->view_count ? o->view_count : 1;
 }
 
-static bool shown(const render_order *o, int show)
-{
-    return o->shows[show] || (!o->show_count && show == SHOW_SKIN);
-}
+static bool shown(const render_order *o, int show) { return o->shows[show] || (!o->show_count && show == SHOW_SKIN); }
 
 int order_picture_count(const render_order *o)
 {
@@ -141,20 +133,17 @@ static order_picture make(const render_order *o, panel_show show, int index)
     order_picture out = {.panel_count = 1};
     order_view v = view_at(o, index);
     bool posed = panel_has_pose(show), both = posed && (!o->pose_set || o->pose == ORDER_BOTH);
-    const char *view = title_of_view(&v), *pose = !posed ? ""
-                                                  : both ? "_both"
-                                                         : panel_pose_name((panel_pose)o->pose);
+    const char *view = title_of_view(&v), *pose = !posed ? "" : both ? "_both" : panel_pose_name((panel_pose)o->pose);
     if (one_view(show)) {
         snprintf(out.name, sizeof out.name, "%s", panel_show_name(show));
         snprintf(out.title, sizeof out.title, "%s", what[show]);
     } else {
-        snprintf(out.name, sizeof out.name, "%s%s%s_%s", panel_show_name(show), posed && !both ? "_" : "",
-                 pose, v.name);
+        snprintf(out.name, sizeof out.name, "%s%s%s_%s", panel_show_name(show), posed && !both ? "_" : "", pose,
+                 v.name);
         snprintf(out.title, sizeof out.title, "%s%s%s", what[show], view ? ", " : "", view ? view : "");
     }
-    panel p = {show,          both || !posed ? POSE_AFTER : (panel_pose)o->pose,
-               v.azimuth_deg, v.elevation_deg,
-               v.roll_deg,    NULL};
+    panel p = {show, both || !posed ? POSE_AFTER : (panel_pose)o->pose, v.azimuth_deg, v.elevation_deg, v.roll_deg,
+               NULL};
     if (posed && p.pose == POSE_BEFORE) p.caption = "Before";
     if (posed && p.pose == POSE_AFTER) p.caption = show == SHOW_SKIN ? "Predicted" : "Planned";
     out.panels[0] = p;

@@ -6,8 +6,7 @@
 #endif
 #include <stdlib.h>
 
-static const double rim_reach_mm =
-    1.2; /* the saw is half a millimetre wide, its edges are divided into as much */
+static const double rim_reach_mm = 1.2; /* the saw is half a millimetre wide, its edges are divided into as much */
 
 void pictures_subject_make(const pictures_input *in, pictures_subject *out)
 {

@@ -16,6 +16,6 @@ typedef struct pictures_subject { /* not to be moved in memory */
 /* Borrows what `in` points to. Free with pictures_subject_free. */
 void pictures_subject_make(const pictures_input *in, pictures_subject *out);
 void pictures_subject_free(pictures_subject *p); /* idempotent */
-/* Works out what only some pictures need (SHOW_SIGNED, SHOW_STRETCH, the lines of the cuts for SHOW_BONES), once. Refuses
- * (ERR_USAGE) the signed distance in a build without CGAL. */
+/* Works out what only some pictures need (SHOW_SIGNED, SHOW_STRETCH, the lines of the cuts for SHOW_BONES), once.
+ * Refuses (ERR_USAGE) the signed distance in a build without CGAL. */
 bool pictures_subject_measure(pictures_subject *p, panel_show show, err *e) MUST_CHECK;

@@ -140,14 +140,18 @@ static void paint(const surface *s, const brush *b, void (*with)(const brush *, 
 static void add_overlap(scene *s, segment_id own, segment_id other)
 {
     brush b = {.to = &s->overlap, .other = s->j->body[other], .move = s->m->move[own]};
-    if (b.other && judge_relative(s->m, other, own, &b.rel)) paint(&s->j->prepared->segments.part[own], &b, paint_overlap);
+    if (b.other && judge_relative(s->m, other, own, &b.rel))
+        paint(&s->j->prepared->segments.part[own], &b, paint_overlap);
 }
 
 static bool add_gap(scene *s, const surface *shell, segment_id own, segment_id other, err *e)
 {
     nearest *sight;
     if (!nearest_create(&s->j->prepared->segments.part[other], &sight, e)) return false;
-    brush b = {.to = &s->gap, .other = s->j->body[other], .sight = sight, .move = s->m->move[own],
+    brush b = {.to = &s->gap,
+               .other = s->j->body[other],
+               .sight = sight,
+               .move = s->m->move[own],
                .saw_mm = s->j->patient->cuts.kerf_mm};
     if (judge_relative(s->m, other, own, &b.rel)) paint(shell, &b, paint_gap);
     nearest_destroy(&sight);
@@ -224,8 +228,13 @@ static bool draw(const scene *s, studio *st, camera *view, bool names, image *ou
     style.width = TILE_WIDTH;
     style.height = TILE_HEIGHT;
     view->depth_mm = 600;
-    picture p = {.layers = s->layers, .layer_count = s->layer_count, .marks = s->marks, .mark_count = s->mark_count,
-                 .strokes = s->canal, .stroke_count = s->canal[0].count && s->canal[1].count ? 2 : 0, .view = *view};
+    picture p = {.layers = s->layers,
+                 .layer_count = s->layer_count,
+                 .marks = s->marks,
+                 .mark_count = s->mark_count,
+                 .strokes = s->canal,
+                 .stroke_count = s->canal[0].count && s->canal[1].count ? 2 : 0,
+                 .view = *view};
     pen *ink = NULL;
     label_fonts fonts = label_fonts_default();
     if (!picture_render(st, &p, &style, out, NULL, e) || !pen_open(out, &fonts, &ink, e)) return false;
@@ -315,8 +324,8 @@ bool judge_picture_write(const judge *j, const plan_moves *m, const judgement *n
     s->j = j;
     s->m = m;
     find_marks(s, now);
-    bool ok = find_surfaces(s, e) && studio_open(&st, e) && make_layers(s, st, e) && draw_sheet(s, st, now, title, &sheet, e) &&
-              png_file_write(&sheet, NULL, 0, path, e);
+    bool ok = find_surfaces(s, e) && studio_open(&st, e) && make_layers(s, st, e) &&
+              draw_sheet(s, st, now, title, &sheet, e) && png_file_write(&sheet, NULL, 0, path, e);
     for (int i = 0; i < LAYERS; i++) model_free(&s->shape[i]);
     studio_close(&st);
     image_free(&sheet);

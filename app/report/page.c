@@ -65,7 +65,8 @@ static bool write_stills(const char *folder, FILE *to, err *e)
         char *png = read_bytes(path, &size, e);
         if (!png) return false;
         char *text = base64_text(png, size);
-        fprintf(to, "<figure><img alt=\"%s\" src=\"data:image/png;base64,%s\"></figure>\n", report_stills[i].title, text);
+        fprintf(to, "<figure><img alt=\"%s\" src=\"data:image/png;base64,%s\"></figure>\n", report_stills[i].title,
+                text);
         free(text);
         free(png);
     }

@@ -20,11 +20,12 @@ static const landmark_row *known(const char *label)
 
 bool report_record_check(const json_file *f, err *e)
 {
-    static const char *const shown[] = {"plan", "scene", "material", "solve", "prepared", "seconds", "movements", "trust", "limits",
-                                        "landmarks", "soft_to_hard", "cephalometry"};
+    static const char *const shown[] = {"plan",      "scene", "material", "solve",     "prepared",     "seconds",
+                                        "movements", "trust", "limits",   "landmarks", "soft_to_hard", "cephalometry"};
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
         if (!json_object_get(f->root, shown[i]))
-            return json_file_refuse(f, "", e, "lacks \"%s\": another version of gnathos wrote it; predict again", shown[i]);
+            return json_file_refuse(f, "", e, "lacks \"%s\": another version of gnathos wrote it; predict again",
+                                    shown[i]);
     return true;
 }
 
@@ -69,7 +70,8 @@ bool report_audit(const json_file *audit, const json_t *outcome, bool names, jso
     static const char *const own_text[] = {"case", "plan", "override"};
     const char *schema = json_string_value(json_object_get(audit->root, "schema"));
     if (!schema || (strcmp(schema, "gnathos.audit.1") != 0 && strcmp(schema, "gnathos.audit-plan.1") != 0))
-        return json_file_refuse(audit, "/schema", e, "must be gnathos.audit.1 or gnathos.audit-plan.1, as gnathos audit writes");
+        return json_file_refuse(audit, "/schema", e,
+                                "must be gnathos.audit.1 or gnathos.audit-plan.1, as gnathos audit writes");
     if (!same_text(audit, "case", json_object_get(outcome, "case"), e) ||
         !same_text(audit, "plan", json_object_get(json_object_get(outcome, "plan"), "name"), e) ||
         !same_text(audit, "hash", json_object_get(outcome, "case_hash"), e))
@@ -122,10 +124,7 @@ static json_t *matrix_json(const rigid *move)
     return out;
 }
 
-static json_t *vector_json(const double v[3])
-{
-    return json_pack("[fff]", v[0], v[1], v[2]);
-}
+static json_t *vector_json(const double v[3]) { return json_pack("[fff]", v[0], v[1], v[2]); }
 
 static json_t *map_json(colormap map)
 {

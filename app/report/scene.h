@@ -10,8 +10,8 @@ bool report_record_check(const json_file *f, err *e) MUST_CHECK;
  * landmarks with labels that gnathos does not know, and notes that name them; "withheld" lists what. */
 json_t *report_record(const json_t *root, bool names);
 
-/* What gnathos audit said of the outcome's plan or case, without the user's text unless `names`. Refuses (ERR_INPUT) what
- * is no audit, and one of another case or plan. The caller frees *out. */
+/* What gnathos audit said of the outcome's plan or case, without the user's text unless `names`. Refuses (ERR_INPUT)
+ * what is no audit, and one of another case or plan. The caller frees *out. */
 bool report_audit(const json_file *audit, const json_t *outcome, bool names, json_t **out, err *e) MUST_CHECK;
 
 /* The shapes in the order of "shapes", all triangles of each: positions (in steps of "step_mm"), for the skin its

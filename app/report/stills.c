@@ -7,14 +7,21 @@ enum { WIDTH = 1280, HEIGHT = 680 }; /* pixels */
 #define FRONT 0, 0, 0
 #define LEFT 90, 0, 0
 #define THREE_QUARTER 45, 0, 0
-#define PAIR(show, view, second) 2, {{show, POSE_BEFORE, view, "Before"}, {show, POSE_AFTER, view, second}}
+#define PAIR(show, view, second)                                                                                       \
+    2,                                                                                                                 \
+    {                                                                                                                  \
+        {show, POSE_BEFORE, view, "Before"}, { show, POSE_AFTER, view, second }                                        \
+    }
 
 const report_still report_stills[] = {
     {"front.png", "Front, before and predicted", PAIR(SHOW_SKIN, FRONT, "Predicted")},
     {"left.png", "Left profile, before and predicted", PAIR(SHOW_SKIN, LEFT, "Predicted")},
-    {"three_quarter.png", "Three-quarter from the left, before and predicted", PAIR(SHOW_SKIN, THREE_QUARTER, "Predicted")},
+    {"three_quarter.png", "Three-quarter from the left, before and predicted",
+     PAIR(SHOW_SKIN, THREE_QUARTER, "Predicted")},
     {"bones.png", "Left profile, bones before and as planned", PAIR(SHOW_CLEAR, LEFT, "Planned")},
-    {"displacement.png", "Displacement of the skin", 2,
+    {"displacement.png",
+     "Displacement of the skin",
+     2,
      {{SHOW_DISPLACEMENT, POSE_AFTER, FRONT, "Front"}, {SHOW_DISPLACEMENT, POSE_AFTER, LEFT, "Left profile"}}},
     {"contour.png", "Profile in the midsagittal plane", 1, {{SHOW_CONTOUR, POSE_AFTER, LEFT, NULL}}},
 };

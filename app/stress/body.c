@@ -183,6 +183,5 @@ void specimen_single(const stress_case *c, stress_scene *s)
     memcpy(s->mesh.xyz, at, sizeof at);
     for (int a = 0; a < 4; a++) s->mesh.tet[a] = a;
     s->attach = attach_map_new(4, 0);
-    for (int32_t v = 0; v < (int32_t)c->p; v++)
-        stress_tie(&s->attach, v, v == 0 ? SEGMENT_MAXILLA : SEGMENT_DISTAL);
+    for (int32_t v = 0; v < (int32_t)c->p; v++) stress_tie(&s->attach, v, v == 0 ? SEGMENT_MAXILLA : SEGMENT_DISTAL);
 }

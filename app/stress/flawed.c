@@ -33,10 +33,7 @@ static void crack(const stress_case *c, tetmesh *m, int from, bool keep(const in
     free(copy);
 }
 
-static bool on_edge(const int n[3], int32_t in_layer)
-{
-    return in_layer % (n[0] + 1) == 0;
-}
+static bool on_edge(const int n[3], int32_t in_layer) { return in_layer % (n[0] + 1) == 0; }
 
 static bool in_corner(const int n[3], int32_t in_layer)
 {
@@ -57,18 +54,10 @@ static void damage(const stress_case *c, tetmesh *m)
     case FLAW_CRACK:
     case FLAW_ISLAND:
     case FLAW_ISLAND_ONE:
-    case FLAW_ISLAND_TWO:
-        crack(c, m, middle, NULL);
-        return;
-    case FLAW_DOUBLE:
-        crack(c, m, middle, apart_from_first);
-        return;
-    case FLAW_HINGE:
-        crack(c, m, middle, on_edge);
-        return;
-    case FLAW_POINT:
-        crack(c, m, middle, in_corner);
-        return;
+    case FLAW_ISLAND_TWO: crack(c, m, middle, NULL); return;
+    case FLAW_DOUBLE: crack(c, m, middle, apart_from_first); return;
+    case FLAW_HINGE: crack(c, m, middle, on_edge); return;
+    case FLAW_POINT: crack(c, m, middle, in_corner); return;
     case FLAW_FLAT: { /* a tet in a face of the surface */
         const int32_t q[4] = {stress_node(c->cells, 0, 0, 1), stress_node(c->cells, 0, 1, 1),
                               stress_node(c->cells, 0, 0, 2), stress_node(c->cells, 0, 1, 2)};
@@ -82,31 +71,20 @@ static void damage(const stress_case *c, tetmesh *m)
         m->tet[1] = keep;
         return;
     }
-    case FLAW_NAN:
-        m->xyz[3 * (size_t)stress_node(c->cells, 1, 1, 1)] = (double)NAN;
-        return;
-    case FLAW_INFINITE:
-        m->xyz[3 * (size_t)stress_node(c->cells, 1, 1, 1) + 2] = HUGE_VAL;
-        return;
-    case FLAW_INDEX:
-        m->tet[17] = m->vertex_count;
-        return;
-    case FLAW_LOOSE:
-        grow(m, 1, 0);
-        return;
+    case FLAW_NAN: m->xyz[3 * (size_t)stress_node(c->cells, 1, 1, 1)] = (double)NAN; return;
+    case FLAW_INFINITE: m->xyz[3 * (size_t)stress_node(c->cells, 1, 1, 1) + 2] = HUGE_VAL; return;
+    case FLAW_INDEX: m->tet[17] = m->vertex_count; return;
+    case FLAW_LOOSE: grow(m, 1, 0); return;
     case FLAW_TWICE:
         grow(m, 0, 1);
         memcpy(m->tet + 4 * (size_t)(m->tet_count - 1), m->tet, 4 * sizeof *m->tet);
         return;
-    case FLAW_REGION:
-        m->region[3] = 2;
-        return;
+    case FLAW_REGION: m->region[3] = 2; return;
     case FLAW_SLIDES:
     case FLAW_NORMAL:
     case FLAW_SEGMENT:
     case FLAW_COUNT:
-    case FLAW_PAIR:
-        return;
+    case FLAW_PAIR: return;
     }
     assert(0);
 }
@@ -138,15 +116,9 @@ static void mishang(const stress_case *c, stress_scene *s)
         for (int32_t v = 0; v < a->node_count; v++) a->kind[v] = NODE_FREE;
         for (int32_t v = 0; v < layer; v++) slide(a, v, 1);
         return;
-    case FLAW_NORMAL:
-        slide(a, layer, 0.5);
-        return;
-    case FLAW_SEGMENT:
-        a->segment[2] = SEGMENT_COUNT;
-        return;
-    case FLAW_COUNT:
-        a->node_count--;
-        return;
+    case FLAW_NORMAL: slide(a, layer, 0.5); return;
+    case FLAW_SEGMENT: a->segment[2] = SEGMENT_COUNT; return;
+    case FLAW_COUNT: a->node_count--; return;
     case FLAW_PAIR:
         attach_map_free(a);
         *a = attach_map_new(s->mesh.vertex_count, 1);

@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9], double g[12],
-                        double *volume)
+void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9], double g[12], double *volume)
 {
     const int32_t *v = m->tet + 4 * (size_t)t;
     double D[3][3], d[3][3], six;
@@ -23,15 +22,11 @@ void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9
         vec_sub(g, g + 3 * a, g);
     }
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            F[3 * i + j] = d[0][i] * g[3 + j] + d[1][i] * g[6 + j] + d[2][i] * g[9 + j];
+        for (int j = 0; j < 3; j++) F[3 * i + j] = d[0][i] * g[3 + j] + d[1][i] * g[6 + j] + d[2][i] * g[9 + j];
     *volume = six / 6;
 }
 
-static int material_at(const stress_scene *s, int32_t t)
-{
-    return s->mesh.region[t] && s->material_count > 1;
-}
+static int material_at(const stress_scene *s, int32_t t) { return s->mesh.region[t] && s->material_count > 1; }
 
 /* Pressures of averaged volume changes at each node in either material, and their energy. Caller frees. */
 static double *node_pressures(const stress_scene *s, const double *x, double *energy)

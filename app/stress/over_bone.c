@@ -13,22 +13,17 @@ double stress_depth(const known_bone *b, const double x[3])
     switch (b->kind) {
     case KNOWN_TEETH:
         return (down - b->size / 2 * fmax(fabs(remainder(u, 4)), fabs(remainder(w, 4)))) / hypot(1, b->size / 2);
-    case KNOWN_CUSPS:
-        return down + b->size / 2 * (cos(k * u) * cos(k * w) - 1);
-    case KNOWN_BALL:
-        return b->size - vec_distance(x, b->at);
-    case KNOWN_EDGE:
-        return fmin(down, u);
-    case KNOWN_PLATE:
-        return b->size - fabs(down);
-    case KNOWN_PLANE:
-        break;
+    case KNOWN_CUSPS: return down + b->size / 2 * (cos(k * u) * cos(k * w) - 1);
+    case KNOWN_BALL: return b->size - vec_distance(x, b->at);
+    case KNOWN_EDGE: return fmin(down, u);
+    case KNOWN_PLATE: return b->size - fabs(down);
+    case KNOWN_PLANE: break;
     }
     return down;
 }
 
-/* A block tied to the maxilla at its top over a bone of the distal segment `drop` below the middle of the block's bottom.
- * Its bottom is free to touch it, or slides on it: for good where the contact is held. */
+/* A block tied to the maxilla at its top over a bone of the distal segment `drop` below the middle of the block's
+ * bottom. Its bottom is free to touch it, or slides on it: for good where the contact is held. */
 static void over(const stress_case *c, stress_scene *s, known_kind kind, double drop, node_kind bottom, bool held)
 {
     s->mesh = stress_grid(c->cells, c->size, c->cells[2]);
@@ -55,35 +50,11 @@ static void over(const stress_case *c, stress_scene *s, known_kind kind, double 
     s->touches = true;
 }
 
-void specimen_on_plane(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_PLANE, c->p, NODE_SLIDING, false);
-}
-void specimen_on_teeth(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_TEETH, 0, NODE_SLIDING, false);
-}
-void specimen_on_ball(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_BALL, c->p, NODE_SLIDING, false);
-}
-void specimen_on_rim(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_EDGE, 0, NODE_SLIDING, false);
-}
-void specimen_kept_off_ball(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_BALL, c->p, NODE_FREE, true);
-}
-void specimen_kept_off_cusps(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_CUSPS, 0, NODE_FREE, true);
-}
-void specimen_kept_on_ball(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_BALL, c->p, NODE_SLIDING, true);
-}
-void specimen_kept_on_cusps(const stress_case *c, stress_scene *s)
-{
-    over(c, s, KNOWN_CUSPS, 0, NODE_SLIDING, true);
-}
+void specimen_on_plane(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_PLANE, c->p, NODE_SLIDING, false); }
+void specimen_on_teeth(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_TEETH, 0, NODE_SLIDING, false); }
+void specimen_on_ball(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_BALL, c->p, NODE_SLIDING, false); }
+void specimen_on_rim(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_EDGE, 0, NODE_SLIDING, false); }
+void specimen_kept_off_ball(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_BALL, c->p, NODE_FREE, true); }
+void specimen_kept_off_cusps(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_CUSPS, 0, NODE_FREE, true); }
+void specimen_kept_on_ball(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_BALL, c->p, NODE_SLIDING, true); }
+void specimen_kept_on_cusps(const stress_case *c, stress_scene *s) { over(c, s, KNOWN_CUSPS, 0, NODE_SLIDING, true); }

@@ -34,18 +34,10 @@ static void judge(const stress_case *c, stress_result *r)
     static const char *const what[] = {"solved", "refused", "gave up", "crashed", "ran out of time"};
     bool right = false;
     switch ((stress_want)c->want) {
-    case WANT_SOLVED:
-        right = r->kind == STRESS_SOLVED;
-        break;
-    case WANT_REFUSED:
-        right = r->kind == STRESS_REFUSED;
-        break;
-    case MAY_GIVE_UP:
-        right = r->kind == STRESS_SOLVED || r->kind == STRESS_GAVE_UP;
-        break;
-    case MUST_GIVE_UP:
-        right = r->kind == STRESS_GAVE_UP;
-        break;
+    case WANT_SOLVED: right = r->kind == STRESS_SOLVED; break;
+    case WANT_REFUSED: right = r->kind == STRESS_REFUSED; break;
+    case MAY_GIVE_UP: right = r->kind == STRESS_SOLVED || r->kind == STRESS_GAVE_UP; break;
+    case MUST_GIVE_UP: right = r->kind == STRESS_GAVE_UP; break;
     }
     if (!right && !r->wrong[0]) snprintf(r->wrong, sizeof r->wrong, "%s", what[r->kind]);
     if (r->kind != STRESS_REFUSED || r->wrong[0]) return;
@@ -113,10 +105,8 @@ stress_result stress_run(const stress_case *c, double patience, const task *watc
         r.cpu_s = use.cpu_s;
     }
     if (end == CHILD_LATE) snprintf(r.text, sizeof r.text, "no end in %.0f s", limit);
-    if (end == CHILD_CRASHED && use.signal)
-        snprintf(r.text, sizeof r.text, "killed by signal %d", use.signal);
-    if (end == CHILD_CRASHED && !use.signal)
-        snprintf(r.text, sizeof r.text, "ended with status %d", use.status);
+    if (end == CHILD_CRASHED && use.signal) snprintf(r.text, sizeof r.text, "killed by signal %d", use.signal);
+    if (end == CHILD_CRASHED && !use.signal) snprintf(r.text, sizeof r.text, "ended with status %d", use.status);
     r.memory_mb = use.peak_mb;
     judge(c, &r);
     return r;

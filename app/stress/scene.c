@@ -67,23 +67,16 @@ static void make_start(const stress_case *c, double scale, stress_scene *s)
         case START_JITTER:
             for (int k = 0; k < 3; k++) x[k] += 4 * scale * random_unit(&seed);
             break;
-        case START_MIRROR:
-            x[0] = c->size[0] * scale - x[0];
-            break;
+        case START_MIRROR: x[0] = c->size[0] * scale - x[0]; break;
         case START_POINT:
             for (int k = 0; k < 3; k++) x[k] = c->size[k] * scale / 2;
             break;
-        case START_FAR:
-            x[1] += 1000 * scale;
-            break;
-        case START_SUNK:
-            x[2] -= 6 * scale;
-            break;
+        case START_FAR: x[1] += 1000 * scale; break;
+        case START_SUNK: x[2] -= 6 * scale; break;
         case START_NAN:
             if (v == n / 2) x[1] = (double)NAN;
             break;
-        case START_NONE:
-            break;
+        case START_NONE: break;
         }
     }
 }

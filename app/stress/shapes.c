@@ -71,8 +71,7 @@ static double over_cusps(const known_bone *b, const double r[3], double grad[3],
 /* A pyramid falls by the larger of the ways off its tip. */
 static double over_teeth(const known_bone *b, const double r[3], double grad[3], double hess[9])
 {
-    curve x = off_tip(r[0], b->round), y = off_tip(r[1], b->round),
-          c = blended_abs(x.value - y.value, b->round);
+    curve x = off_tip(r[0], b->round), y = off_tip(r[1], b->round), c = blended_abs(x.value - y.value, b->round);
     double fall = b->size / (spacing / 2), length = sqrt(1 + fall * fall), half = fall / 2 / length;
     vec_copy((double[]){half * (1 + c.slope) * x.slope, half * (1 - c.slope) * y.slope, 1 / length}, grad);
     hess[0] = half * ((1 + c.slope) * x.bend + c.bend * x.slope * x.slope);
@@ -96,8 +95,8 @@ static double distance(const void *context, const double x[3], double grad[3], d
 }
 
 /* By steps and halving: bones and gaps along the way that are thinner than a step may be missed. */
-static bool leave(const void *context, const double x[3], const double direction[3], double reach_mm,
-                  double hit[3], double normal[3])
+static bool leave(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
+                  double normal[3])
 {
     static const double step_mm = 0.02, near_mm = 1e-12;
     double inside = HUGE_VAL, outside = HUGE_VAL, p[3], grad[3];
@@ -123,7 +122,4 @@ static bool leave(const void *context, const double x[3], const double direction
     return vec_normalize(normal) > 0;
 }
 
-bone_shape known_shape(const known_bone *b)
-{
-    return (bone_shape){.context = b, .distance = distance, .leave = leave};
-}
+bone_shape known_shape(const known_bone *b) { return (bone_shape){.context = b, .distance = distance, .leave = leave}; }

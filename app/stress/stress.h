@@ -43,7 +43,7 @@ enum {
     CHECK_STILL = 1,   /* no node moves at all */
     CHECK_RIGID = 2,   /* every node follows the motion of the bones to 1e-9 of the body's size */
     CHECK_UPRIGHT = 4, /* no tet turned inside out */
-    CHECK_SCALED = 8, /* displacements are those of the same case at scale and stiffness 1, times the scale */
+    CHECK_SCALED = 8,  /* displacements are those of the same case at scale and stiffness 1, times the scale */
     CHECK_ABOVE =
         16 /* no tissue node that may touch is deeper in the bone, where that rests, than depth_limit_mm + slack */
 };
@@ -123,29 +123,26 @@ stress_result stress_run(const stress_case *c, double patience, const task *watc
 void stress_verify(const stress_case *c, const stress_scene *s, const equilibrium *q, stress_result *r);
 
 /* F of a tet at x[3*nodes], gradients of its shape functions and volume at rest. */
-void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9], double gradient[12],
-                        double *volume);
+void stress_deformation(const tetmesh *m, const double *x, int32_t t, double F[9], double gradient[12], double *volume);
 /* force[3*nodes]: derivative of the elastic energy, mN; returns the energy, uJ. */
 double stress_forces(const stress_scene *s, const double *x, double *force);
 
 /* Bodies. Block: between distal (bottom) and maxilla (top). */
 void specimen_block(const stress_case *c, stress_scene *s);
-void specimen_slab(const stress_case *c, stress_scene *s); /* on the cranium but for a patch of the maxilla */
-void specimen_layers(const stress_case *c, stress_scene *s); /* block; the middle third is region 1 */
-void specimen_skin(const stress_case *c, stress_scene *s);   /* slab; the outer layer is region 1 */
-void specimen_grains(const stress_case *c, stress_scene *s); /* block; one tet in p is region 1 */
-void specimen_caps(const stress_case *c,
-                   stress_scene *s); /* block; every 7th tet split by a node p off a face, */
+void specimen_slab(const stress_case *c, stress_scene *s);    /* on the cranium but for a patch of the maxilla */
+void specimen_layers(const stress_case *c, stress_scene *s);  /* block; the middle third is region 1 */
+void specimen_skin(const stress_case *c, stress_scene *s);    /* slab; the outer layer is region 1 */
+void specimen_grains(const stress_case *c, stress_scene *s);  /* block; one tet in p is region 1 */
+void specimen_caps(const stress_case *c, stress_scene *s);    /* block; every 7th tet split by a node p off a face, */
 void specimen_wedges(const stress_case *c, stress_scene *s);  /* off an edge, */
 void specimen_needles(const stress_case *c, stress_scene *s); /* off a node (p of the tet's size) */
 void specimen_slivers(const stress_case *c,
                       stress_scene *s); /* block; a layer of slivers of thickness p in the middle */
-void specimen_graded(const stress_case *c,
-                     stress_scene *s); /* block; cells grow p-fold from one side to the other */
+void specimen_graded(const stress_case *c, stress_scene *s); /* block; cells grow p-fold from one side to the other */
 void specimen_single(const stress_case *c, stress_scene *s); /* one tet; p nodes of it tied */
 void specimen_broken(const stress_case *c, stress_scene *s); /* block with a flaw */
-/* Block tied at its top. Its bottom slides on the distal bone and may lift off: a plane p lower, pyramids p high, a ball
- * of radius p, or a rim: half of it has no bone. */
+/* Block tied at its top. Its bottom slides on the distal bone and may lift off: a plane p lower, pyramids p high, a
+ * ball of radius p, or a rim: half of it has no bone. */
 void specimen_on_plane(const stress_case *c, stress_scene *s);
 void specimen_on_teeth(const stress_case *c, stress_scene *s);
 void specimen_on_ball(const stress_case *c, stress_scene *s);
@@ -183,13 +180,9 @@ typedef enum mesh_flaw {
 /* A grid of chequered cells of five tets, its corner at the origin; `shifted` from layer `from` on: the other
  * chequer. Node (i, j, k) is number (k (ny+1) + j)(nx+1) + i. */
 tetmesh stress_grid(const int cells[3], const double size[3], int from);
-static inline int32_t stress_node(const int n[3], int i, int j, int k)
-{
-    return (k * (n[1] + 1) + j) * (n[0] + 1) + i;
-}
+static inline int32_t stress_node(const int n[3], int i, int j, int k) { return (k * (n[1] + 1) + j) * (n[0] + 1) + i; }
 void stress_tie(attach_map *a, int32_t v, segment_id segment);
-void stress_tie_ends(const stress_case *c,
-                     stress_scene *s); /* bottom layer to distal, top layer to maxilla */
+void stress_tie_ends(const stress_case *c, stress_scene *s); /* bottom layer to distal, top layer to maxilla */
 /* How deep x lies in the bone for CHECK_ABOVE, mm, from other formulas than the shape; below cusps along z. */
 double stress_depth(const known_bone *b, const double x[3]);
 

@@ -35,8 +35,7 @@ void stress_print(const stress_case *const *c, const stress_result *r, int count
         fprintf(out, "| %s | %s | %s | %d | %s | %s | %s | %s | %d | %s | %s | %s |\n", c[i]->name,
                 want_text[c[i]->want],
                 one->kind == STRESS_SOLVED || one->kind == STRESS_GAVE_UP ? one->text : kind_text[one->kind],
-                one->iterations,
-                cell(a, WIDE, "%.2e", one->checked_mn >= 0 ? one->checked_mn : one->residual_mn),
+                one->iterations, cell(a, WIDE, "%.2e", one->checked_mn >= 0 ? one->checked_mn : one->residual_mn),
                 cell(b, WIDE, "%.1e", one->correction_mm), cell(d, WIDE, "%.6g", one->energy_uj),
                 cell(e, WIDE, "%.4g", one->min_j), one->inverted, cell(f, WIDE, "%.4g", one->moved_mm),
                 cell(g, WIDE, "%.2f", one->cpu_s), verdict(c[i], one));
@@ -50,35 +49,34 @@ void stress_print(const stress_case *const *c, const stress_result *r, int count
         fprintf(out, "* %s: %s (%s)%s%s\n", c[i]->name, r[i].wrong, r[i].text, c[i]->known ? "; known: " : "",
                 c[i]->known ? c[i]->known : "");
     }
-    fprintf(out, "%s%d cases, %d not as expected, %d known limit%s\n", wrong + known ? "\n" : "", count, wrong,
-            known, known == 1 ? "" : "s");
+    fprintf(out, "%s%d cases, %d not as expected, %d known limit%s\n", wrong + known ? "\n" : "", count, wrong, known,
+            known == 1 ? "" : "s");
 }
 
 static json_t *as_json(const stress_case *c, const stress_result *r)
 {
-    json_t *o =
-        json_pack("{ss ss ss ss ss ss}", "case", c->name, "what", c->what, "expected", want_text[c->want],
-                  "outcome", kind_text[r->kind], "text", r->text, "wrong", r->wrong);
+    json_t *o = json_pack("{ss ss ss ss ss ss}", "case", c->name, "what", c->what, "expected", want_text[c->want],
+                          "outcome", kind_text[r->kind], "text", r->text, "wrong", r->wrong);
     json_object_set_new(o, "known_limit", json_string(c->known ? c->known : ""));
     const json_column numbers[] = {{"nodes", r->nodes},
-                   {"tets", r->tets},
-                   {"unknowns", (double)r->unknowns},
-                   {"iterations", r->iterations},
-                   {"factorisations", r->factorisations},
-                   {"loads", r->loads},
-                   {"residual_mN", r->residual_mn},
-                   {"tolerance_mN", r->tolerance_mn},
-                   {"checked_residual_mN", r->checked_mn},
-                   {"newton_step_mm", r->correction_mm},
-                   {"energy_uJ", r->energy_uj},
-                   {"min_J", r->min_j},
-                   {"max_stretch", r->max_stretch},
-                   {"inverted_tets", r->inverted},
-                   {"moved_mm", r->moved_mm},
-                   {"contact_depth_mm", r->depth_mm},
-                   {"seconds", r->seconds},
-                   {"cpu_seconds", r->cpu_s},
-                   {"memory_MB", r->memory_mb}};
+                                   {"tets", r->tets},
+                                   {"unknowns", (double)r->unknowns},
+                                   {"iterations", r->iterations},
+                                   {"factorisations", r->factorisations},
+                                   {"loads", r->loads},
+                                   {"residual_mN", r->residual_mn},
+                                   {"tolerance_mN", r->tolerance_mn},
+                                   {"checked_residual_mN", r->checked_mn},
+                                   {"newton_step_mm", r->correction_mm},
+                                   {"energy_uJ", r->energy_uj},
+                                   {"min_J", r->min_j},
+                                   {"max_stretch", r->max_stretch},
+                                   {"inverted_tets", r->inverted},
+                                   {"moved_mm", r->moved_mm},
+                                   {"contact_depth_mm", r->depth_mm},
+                                   {"seconds", r->seconds},
+                                   {"cpu_seconds", r->cpu_s},
+                                   {"memory_MB", r->memory_mb}};
     json_columns(o, numbers, sizeof numbers / sizeof *numbers);
     return o;
 }

@@ -53,8 +53,7 @@ static bool take_boundary(check *k)
             k->touching[a->pair[i]] = 1;
         else
             k->attach.pair[i] = a->pair[i];
-    if (!k->s->touches)
-        memcpy(k->attach.pair_normal, a->pair_normal, 3 * (size_t)a->pair_count * sizeof(double));
+    if (!k->s->touches) memcpy(k->attach.pair_normal, a->pair_normal, 3 * (size_t)a->pair_count * sizeof(double));
     if (!boundary_make(&k->s->mesh, &k->attach, &k->b, &e)) {
         fail(k, "solved, but its boundary is refused: %.150s", e.text);
         return false;
@@ -66,12 +65,10 @@ static bool take_boundary(check *k)
 static void check_places(check *k)
 {
     const double *x = k->q->xyz;
-    double off = 0, *z = NEW_ARRAY(double, k->b.unknown_count),
-           *at = NEW_ARRAY(double, 3 * (size_t)k->b.node_count);
+    double off = 0, *z = NEW_ARRAY(double, k->b.unknown_count), *at = NEW_ARRAY(double, 3 * (size_t)k->b.node_count);
     boundary_project(&k->b, x, z);
     boundary_place(&k->b, z, at);
-    for (int32_t v = 0; v < k->b.node_count; v++)
-        off = fmax(off, vec_distance(x + 3 * (size_t)v, at + 3 * (size_t)v));
+    for (int32_t v = 0; v < k->b.node_count; v++) off = fmax(off, vec_distance(x + 3 * (size_t)v, at + 3 * (size_t)v));
     if (!(off <= 1e-9 * (k->size + fabs(k->c->shift_mm)))) fail(k, "a node is %.2g mm off its bone", off);
     free(z);
     free(at);
@@ -116,8 +113,7 @@ static double rounding(const check *k, const double *force)
     uint64_t state = 1;
     for (size_t i = 0; i < n; i++) {
         state = state * 6364136223846793005u + 1442695040888963407u;
-        x[i] +=
-            DBL_EPSILON * (fabs(x[i]) + 1e-3 * k->size) * ((double)(state >> 11) / 4503599627370496.0 - 1);
+        x[i] += DBL_EPSILON * (fabs(x[i]) + 1e-3 * k->size) * ((double)(state >> 11) / 4503599627370496.0 - 1);
     }
     stress_forces(k->s, x, other);
     for (size_t i = 0; i < n; i++) other[i] -= force[i];
@@ -149,15 +145,13 @@ static void check_pressure(check *k, const double *force)
 static void check_forces(check *k)
 {
     size_t n = 3 * (size_t)k->b.node_count;
-    double *force = NEW_ARRAY(double, n), energy = stress_forces(k->s, k->q->xyz, force),
-           noise = rounding(k, force);
+    double *force = NEW_ARRAY(double, n), energy = stress_forces(k->s, k->q->xyz, force), noise = rounding(k, force);
     bool kept = k->s->contact.held && !k->s->contact.extra_count; /* what keeps in touch may be pulled */
     if (k->s->touches && !kept) check_pressure(k, force);
     k->r->checked_mn = residual(k, force);
     if (!(k->r->checked_mn <= 1.01 * k->q->tolerance_mn + 16 * noise))
         fail(k, "residual is %.3g mN, above the tolerance of %.3g", k->r->checked_mn, k->q->tolerance_mn);
-    if (!k->s->touches &&
-        !(fabs(energy - k->q->energy_uj) <= 1e-6 * (fabs(energy) + noise * k->size)))
+    if (!k->s->touches && !(fabs(energy - k->q->energy_uj) <= 1e-6 * (fabs(energy) + noise * k->size)))
         fail(k, "energy is %.12g uJ, not %.12g as it says", energy, k->q->energy_uj);
     free(force);
 }
@@ -203,11 +197,9 @@ static void check_correction(check *k)
         snprintf(k->r->text, sizeof k->r->text, "solved (not a minimum)");
         return;
     }
-    double allowed =
-        fmax(1e-4, 100 * k->s->params.rel_tol) * k->moved + 1e-9 * (k->size + fabs(k->c->shift_mm));
+    double allowed = fmax(1e-4, 100 * k->s->params.rel_tol) * k->moved + 1e-9 * (k->size + fabs(k->c->shift_mm));
     if (!(k->r->correction_mm <= allowed))
-        fail(k, "one more Newton step goes %.3g mm, at %.3g mm of displacement", k->r->correction_mm,
-             k->moved);
+        fail(k, "one more Newton step goes %.3g mm, at %.3g mm of displacement", k->r->correction_mm, k->moved);
 }
 
 static void check_rigid(check *k)
@@ -218,8 +210,7 @@ static void check_rigid(check *k)
         rigid_apply(&k->s->motion[SEGMENT_MAXILLA], k->s->mesh.xyz + 3 * (size_t)v, at);
         off = fmax(off, vec_distance(at, k->q->xyz + 3 * (size_t)v));
     }
-    if (!(off <= 1e-9 * (k->size + fabs(k->c->shift_mm) + k->moved)))
-        fail(k, "%.3g mm off the rigid motion", off);
+    if (!(off <= 1e-9 * (k->size + fabs(k->c->shift_mm) + k->moved))) fail(k, "%.3g mm off the rigid motion", off);
 }
 
 static void check_scaled(check *k)
@@ -268,8 +259,7 @@ void stress_verify(const stress_case *c, const stress_scene *s, const equilibriu
         k.moved = fmax(k.moved, vec_distance(q->xyz + 3 * (size_t)v, s->mesh.xyz + 3 * (size_t)v));
     r->moved_mm = k.moved;
     if (q->outcome == SOLVED && !r->wrong[0]) {
-        if (q->load_reached < 1 || q->residual_mn > q->tolerance_mn)
-            fail(&k, "its own record contradicts it");
+        if (q->load_reached < 1 || q->residual_mn > q->tolerance_mn) fail(&k, "its own record contradicts it");
         if (take_boundary(&k)) {
             check_places(&k);
             check_volumes(&k);

@@ -106,8 +106,7 @@ void study_table_make(study_table *t)
                 t->best[i] = false;
     }
     double d[2], step = t->error[study_default].mean_mm;
-    for (int k = 0; k < 2; k++)
-        d[k] = study_compare(&t->run[study_family[k]], &t->run[study_family[2]]).mean_mm;
+    for (int k = 0; k < 2; k++) d[k] = study_compare(&t->run[study_family[k]], &t->run[study_family[2]]).mean_mm;
     t->order = study_order(d);
     t->reference_error_mm = isnan(t->order) ? step : step / (exp2(t->order) - 1);
     t->plain_slope = slope_of(t, ELEMENT_AUTO);

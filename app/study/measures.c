@@ -48,25 +48,25 @@ const int study_move_count = MOVES;
 #define MORE ((double)INFINITY)
 #define FORWARD STUDY_FORWARD
 #define UP STUDY_UP
-#define FOLLOWS(move, soft, hard, axis, low, high, published)                                                \
-    {                                                                                                        \
-        move, MEASURE_FOLLOWS, soft, hard, axis, axis, low, high, published                                  \
+#define FOLLOWS(move, soft, hard, axis, low, high, published)                                                          \
+    {                                                                                                                  \
+        move, MEASURE_FOLLOWS, soft, hard, axis, axis, low, high, published                                            \
     }
-#define CROSSES(move, soft, hard, low, high, published)                                                      \
-    {                                                                                                        \
-        move, MEASURE_FOLLOWS, soft, hard, UP, FORWARD, low, high, published                                 \
+#define CROSSES(move, soft, hard, low, high, published)                                                                \
+    {                                                                                                                  \
+        move, MEASURE_FOLLOWS, soft, hard, UP, FORWARD, low, high, published                                           \
     }
-#define TURNS(move, hard, axis, low, high, published)                                                        \
-    {                                                                                                        \
-        move, MEASURE_TURNS, "nasolabial angle", hard, axis, axis, low, high, published                      \
+#define TURNS(move, hard, axis, low, high, published)                                                                  \
+    {                                                                                                                  \
+        move, MEASURE_TURNS, "nasolabial angle", hard, axis, axis, low, high, published                                \
     }
-#define WIDENS(move, low, high, published)                                                                   \
-    {                                                                                                        \
-        move, MEASURE_WIDENS, "Al_L", "Al_R", 0, 0, low, high, published                                     \
+#define WIDENS(move, low, high, published)                                                                             \
+    {                                                                                                                  \
+        move, MEASURE_WIDENS, "Al_L", "Al_R", 0, 0, low, high, published                                               \
     }
-#define THICKENS(move, soft, hard, low, high, published)                                                     \
-    {                                                                                                        \
-        move, MEASURE_THICKENS, soft, hard, FORWARD, FORWARD, low, high, published                           \
+#define THICKENS(move, soft, hard, low, high, published)                                                               \
+    {                                                                                                                  \
+        move, MEASURE_THICKENS, soft, hard, FORWARD, FORWARD, low, high, published                                     \
     }
 
 /* Of genioplasties the chin moves as a whole and Pog may lie above its cut: Me stands for the bone. */
@@ -127,8 +127,7 @@ bool study_move_motion(const standard_move *m, const prepared *p, rigid motion[S
     if (m->chin_mm[FORWARD] != 0 || m->chin_mm[UP] != 0) {
         c.move[SEGMENT_CHIN].kind = MOVE_ANGLES;
         vec_scale(p->frame.posterior, -m->chin_mm[FORWARD], c.move[SEGMENT_CHIN].translate_mm);
-        vec_axpy(c.move[SEGMENT_CHIN].translate_mm, m->chin_mm[UP], p->frame.up,
-                 c.move[SEGMENT_CHIN].translate_mm);
+        vec_axpy(c.move[SEGMENT_CHIN].translate_mm, m->chin_mm[UP], p->frame.up, c.move[SEGMENT_CHIN].translate_mm);
     }
     c.jaw.open_deg = -m->close_deg;
     if (left && right) {
@@ -200,12 +199,10 @@ double study_measure_value(const study_measure *m, const prepared *p, const stud
     if (!r->point_mm) return unknown;
     assert(r->point_count == p->points.count);
     switch ((study_measure_kind)m->kind) {
-    case MEASURE_WIDENS:
-        return widening(p, r, m->soft, m->hard);
+    case MEASURE_WIDENS: return widening(p, r, m->soft, m->hard);
     case MEASURE_TURNS:
-        return component(p, r, m->hard, m->hard_axis, &hard) && fabs(hard) >= least_mm
-                   ? turn(p, r, m->soft) / hard
-                   : unknown;
+        return component(p, r, m->hard, m->hard_axis, &hard) && fabs(hard) >= least_mm ? turn(p, r, m->soft) / hard
+                                                                                       : unknown;
     case MEASURE_FOLLOWS:
     case MEASURE_THICKENS:
         if (!component(p, r, m->soft, m->soft_axis, &soft) || !component(p, r, m->hard, m->hard_axis, &hard))
@@ -229,12 +226,8 @@ void study_measure_name(const study_measure *m, char *out, size_t size)
     case MEASURE_TURNS:
         snprintf(out, size, "%s, degrees per mm of %s %s", m->soft, m->hard, axis[m->hard_axis]);
         return;
-    case MEASURE_WIDENS:
-        snprintf(out, size, "%s to %s, wider by mm", m->soft, m->hard);
-        return;
-    case MEASURE_THICKENS:
-        snprintf(out, size, "%s before %s, thicker by mm", m->soft, m->hard);
-        return;
+    case MEASURE_WIDENS: snprintf(out, size, "%s to %s, wider by mm", m->soft, m->hard); return;
+    case MEASURE_THICKENS: snprintf(out, size, "%s before %s, thicker by mm", m->soft, m->hard); return;
     }
 }
 

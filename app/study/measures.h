@@ -29,8 +29,7 @@ enum { STUDY_MEASURES = 42 };
 extern const study_measure study_measures[STUDY_MEASURES];
 
 /* Refuses what rig_motion refuses: a jaw that turns, in a case without condyles. */
-bool study_move_motion(const standard_move *m, const prepared *p, rigid motion[SEGMENT_COUNT],
-                       err *e) MUST_CHECK;
+bool study_move_motion(const standard_move *m, const prepared *p, rigid motion[SEGMENT_COUNT], err *e) MUST_CHECK;
 /* Adds the lips' edges at stomion, "Stms" and "Stmi", where a head has but one point for both. */
 void study_add_lips(prepared *p);
 /* NaN where a landmark is missing or the bone hardly moves. p: with study_add_lips, as the run was. */

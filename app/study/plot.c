@@ -210,8 +210,7 @@ static void draw_families(const study_table *t, const spot *s, int count)
     for (int i = 0; i < count; i++)
         for (int k = 0; k < count; k++) {
             const study_rung *a = t->run[s[i].run].rung, *b = t->run[s[k].run].rung;
-            bool halves =
-                s[i].series == HALVED && a->coarsening == b->coarsening && b->refined == a->refined + 1;
+            bool halves = s[i].series == HALVED && a->coarsening == b->coarsening && b->refined == a->refined + 1;
             if (s[i].series != s[k].series || !(halves || (s[i].series < HALVED && k == i + 1))) continue;
             plcol0(FIRST_SERIES + s[i].series);
             pllsty(halves ? 2 : 1);
@@ -222,8 +221,7 @@ static void draw_families(const study_table *t, const spot *s, int count)
 
 static void draw_slopes(const picture *p)
 {
-    double wide = 0.12 * (p->x1 - p->x0), x = p->x1 - 0.28 * (p->x1 - p->x0),
-           y = p->y0 + 0.1 * (p->y1 - p->y0);
+    double wide = 0.12 * (p->x1 - p->x0), x = p->x1 - 0.28 * (p->x1 - p->x0), y = p->y0 + 0.1 * (p->y1 - p->y0);
     plcol0(INK);
     plschr(0, 0.7);
     for (int order = 1; order <= 2; order++) {
@@ -238,10 +236,9 @@ static void describe_orders(const study_table *t, char *out, size_t size)
 {
     const double value[3] = {t->plain_slope, t->average_slope, t->order};
     char text[3][24];
-    for (int k = 0; k < 3; k++)
-        snprintf(text[k], sizeof text[k], isnan(value[k]) ? "not known" : "%.2f", value[k]);
-    snprintf(out, size, "slope of meshes made anew: plain %s, averaged %s; order of x3 halved twice: %s",
-             text[0], text[1], text[2]);
+    for (int k = 0; k < 3; k++) snprintf(text[k], sizeof text[k], isnan(value[k]) ? "not known" : "%.2f", value[k]);
+    snprintf(out, size, "slope of meshes made anew: plain %s, averaged %s; order of x3 halved twice: %s", text[0],
+             text[1], text[2]);
 }
 
 /* False: it lies outside of the frame. */

@@ -9,11 +9,10 @@
 /* As predict solves it; and without contact, which takes a tenth of the time: on the same mesh, and on others
  * whose distance to it is the error bar. */
 enum { PREDICTED, SAME_MESH, COARSER, FINER, RUNS };
-static const study_rung runs[RUNS] = {
-    [PREDICTED] = {.name = "predicted", .coarsening = 1, .contact = CONTACT_BONES},
-    [SAME_MESH] = {.name = "without contact", .coarsening = 1},
-    [COARSER] = {.name = "edges x 1.5", .coarsening = 1.5},
-    [FINER] = {.name = "edges x 2, halved", .coarsening = 2, .refined = 1}};
+static const study_rung runs[RUNS] = {[PREDICTED] = {.name = "predicted", .coarsening = 1, .contact = CONTACT_BONES},
+                                      [SAME_MESH] = {.name = "without contact", .coarsening = 1},
+                                      [COARSER] = {.name = "edges x 1.5", .coarsening = 1.5},
+                                      [FINER] = {.name = "edges x 2, halved", .coarsening = 2, .refined = 1}};
 
 typedef enum verdict { INSIDE, AT_EDGE, WITHIN_BAR, OUTSIDE, NOT_KNOWN, NO_BAR } verdict;
 static const char *const verdict_text[] = {"inside",  "inside, at the edge", "OUTSIDE, within the bar",
@@ -63,8 +62,7 @@ static void print_row(const answer *a, FILE *out)
     else
         fprintf(out, "%.2f | %.2f | ", a->value[PREDICTED], a->bar);
     print_window(a->m, out);
-    fprintf(out, " | %s | %s%s%s |\n", a->m->published, verdict_text[a->verdict], a->why[0] ? ": " : "",
-            a->why);
+    fprintf(out, " | %s | %s%s%s |\n", a->m->published, verdict_text[a->verdict], a->why[0] ? ": " : "", a->why);
 }
 
 static void print(const answer *a, const char *name, FILE *out)
@@ -139,8 +137,7 @@ static bool write(const answer *a, const study_task *t, err *e)
 }
 
 /* The answers of one move; on each mesh from the journal, else solved now. */
-static bool run_move(study_task *t, int move, const prepared *p, answer *a,
-                     err *e)
+static bool run_move(study_task *t, int move, const prepared *p, answer *a, err *e)
 {
     const standard_move *m = &study_moves[move];
     char reason[96] = "";

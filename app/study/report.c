@@ -8,14 +8,12 @@
 #include <string.h>
 #include <time.h>
 
-static const char *const group_text[GROUP_COUNT] = {"mesh",     "element", "tolerance",
-                                                    "material", "threads", "scene"};
+static const char *const group_text[GROUP_COUNT] = {"mesh", "element", "tolerance", "material", "threads", "scene"};
 
 static void print_soonest(const study_table *t, double most_mm, bool p95, FILE *out)
 {
     int i = study_soonest(t, most_mm, p95, t->reference_error_mm), near = study_soonest(t, most_mm, p95, 0);
-    fprintf(out, "* %.2f mm for %s: ", most_mm,
-            p95 ? "95 % of the moved skin" : "the mean of the moved skin");
+    fprintf(out, "* %.2f mm for %s: ", most_mm, p95 ? "95 % of the moved skin" : "the mean of the moved skin");
     if (i >= 0)
         fprintf(out, "**%s**, %.2f s", t->run[i].rung->name, t->run[i].result.wall_s);
     else
@@ -53,8 +51,8 @@ static void print_orders(const study_table *t, FILE *out)
             "predict counts in, is left out but in two rows."
             "\n\n",
             t->count, reference, own->vertices);
-    fprintf(out, "The case's own mesh is %.3f mm off in the mean, %.3f mm at 95 %%, %.2f mm at most. ",
-            own->mean_mm, own->p95_mm, own->max_mm);
+    fprintf(out, "The case's own mesh is %.3f mm off in the mean, %.3f mm at 95 %%, %.2f mm at most. ", own->mean_mm,
+            own->p95_mm, own->max_mm);
     study_error anew = study_compare(&t->run[study_default + 1], &t->run[study_default]);
     fprintf(out,
             "Meshed anew with \"%s\", the skin differs from that of the case's own mesh by %.3f mm in the "
@@ -68,14 +66,13 @@ static void print_orders(const study_table *t, FILE *out)
                 "known to be off by about its distance to the mesh that was halved, %.3f mm in the mean. ",
                 coarsest, t->reference_error_mm);
     else
-        fprintf(
-            out,
-            "How good is the reference? \"%s\", halved and halved twice converge with order %.2f (in the "
-            "mean); if "
-            "the case's own mesh and its half do so too, the reference is itself off by %.3f mm in the mean "
-            "(Richardson's extrapolation%s). ",
-            coarsest, t->order, t->reference_error_mm,
-            t->order < 0.8 ? "; an order so far below 1 makes this a cautious bound" : "");
+        fprintf(out,
+                "How good is the reference? \"%s\", halved and halved twice converge with order %.2f (in the "
+                "mean); if "
+                "the case's own mesh and its half do so too, the reference is itself off by %.3f mm in the mean "
+                "(Richardson's extrapolation%s). ",
+                coarsest, t->order, t->reference_error_mm,
+                t->order < 0.8 ? "; an order so far below 1 makes this a cautious bound" : "");
     fprintf(out,
             "Over meshes made anew the mean error falls with size to the power %.2f, with averaged volumes "
             "%.2f.\n\n",
@@ -85,13 +82,11 @@ static void print_orders(const study_table *t, FILE *out)
 
 static void print_tubes(const study_table *t, FILE *out)
 {
-    fprintf(
-        out,
-        "\n## Against an exact answer\n\nA thick tube in plane strain, inner wall turned by 26 degrees (4.5 "
-        "mm), against its "
-        "radial equations: root mean square error of the nodes, mm; between meshes the observed order.\n\n"
-        "| Poisson | tets | 4 cells | | 8 cells | | 16 cells | unknowns, s of the last |\n"
-        "|---|---|---|---|---|---|---|---|\n");
+    fprintf(out, "\n## Against an exact answer\n\nA thick tube in plane strain, inner wall turned by 26 degrees (4.5 "
+                 "mm), against its "
+                 "radial equations: root mean square error of the nodes, mm; between meshes the observed order.\n\n"
+                 "| Poisson | tets | 4 cells | | 8 cells | | 16 cells | unknowns, s of the last |\n"
+                 "|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < STUDY_TUBES; i += 3) {
         const study_tube *row = t->tube + i;
         fprintf(out, "| %.2f | %s ", row->poisson, row->average ? "averaged" : "plain");
@@ -103,10 +98,7 @@ static void print_tubes(const study_table *t, FILE *out)
     }
 }
 
-static bool is_other_question(int i)
-{
-    return study_rungs[i].group == GROUP_MATERIAL || study_rungs[i].contact;
-}
+static bool is_other_question(int i) { return study_rungs[i].group == GROUP_MATERIAL || study_rungs[i].contact; }
 
 void study_print(const study_table *t, FILE *out)
 {
@@ -114,18 +106,17 @@ void study_print(const study_table *t, FILE *out)
     print_orders(t, out);
     for (int k = 0; k < 4; k++) print_soonest(t, k % 2 ? 0.02 : 0.1, k >= 2, out);
     print_nearest(t, out);
-    fprintf(
-        out,
-        "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. \"changes\" is the "
-        "distance to "
-        "the skin of the case's own settings, for runs on the same mesh: what a tolerance, a thread, a load "
-        "step or tissue left out does to the answer. Rows of other materials, of another Poisson ratio and "
-        "of "
-        "contact answer another question: only that column says something of them. \"front\" marks what "
-        "nothing "
-        "beats in both time and mean error. \"averaged\" is the element with averaged volumes, which locks "
-        "less.\n\n",
-        t->cores);
+    fprintf(out,
+            "\nTimes are of the solve alone, on %d cores; a mesh is made once per case. \"changes\" is the "
+            "distance to "
+            "the skin of the case's own settings, for runs on the same mesh: what a tolerance, a thread, a load "
+            "step or tissue left out does to the answer. Rows of other materials, of another Poisson ratio and "
+            "of "
+            "contact answer another question: only that column says something of them. \"front\" marks what "
+            "nothing "
+            "beats in both time and mean error. \"averaged\" is the element with averaged volumes, which locks "
+            "less.\n\n",
+            t->cores);
     fprintf(out, "| | setting | outcome | nodes | unknowns | iterations (of them with contact) | factors | "
                  "wall s | CPU s "
                  "| order/assemble/factor/solve s "
@@ -139,8 +130,8 @@ void study_print(const study_table *t, FILE *out)
             continue;
         }
         fprintf(out, "%d | %lld | %d (%d) | %d | %.2f | %.2f | %.2f/%.2f/%.2f/%.2f | %.0f | ", r->nodes,
-                (long long)r->unknowns, r->iterations, r->contact_iterations, r->factorisations, r->wall_s,
-                r->cpu_s, r->prepare_s, r->assemble_s, r->factor_s, r->solve_s, r->peak_mb);
+                (long long)r->unknowns, r->iterations, r->contact_iterations, r->factorisations, r->wall_s, r->cpu_s,
+                r->prepare_s, r->assemble_s, r->factor_s, r->solve_s, r->peak_mb);
         const study_error *error = &t->error[i], *change = &t->change[i];
         if (i == study_reference)
             fprintf(out, "reference | | | ");
@@ -160,8 +151,8 @@ void study_print(const study_table *t, FILE *out)
 static json_t *row_json(const study_table *t, int i)
 {
     const study_result *r = &t->run[i].result;
-    json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting",
-                          study_rungs[i].name, "outcome", r->text, "solved", r->solved, "front", t->best[i]);
+    json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting", study_rungs[i].name,
+                          "outcome", r->text, "solved", r->solved, "front", t->best[i]);
     const json_column numbers[] = {{"nodes", r->nodes},
                                    {"tets", r->tets},
                                    {"unknowns", (double)r->unknowns},
@@ -201,11 +192,10 @@ json_t *study_json(const study_table *t)
     json_t *tubes = json_array();
     for (int i = 0; i < STUDY_TUBES; i++) {
         const study_tube *row = &t->tube[i];
-        json_array_append_new(tubes,
-                              json_pack("{si sb so sI si so so}", "cells", row->cells, "averaged",
-                                        row->average, "poisson", json_number(row->poisson), "unknowns",
-                                        (json_int_t)row->unknowns, "iterations", row->iterations, "wall_s",
-                                        json_number(row->wall_s), "error_mm", json_number(row->error_mm)));
+        json_array_append_new(tubes, json_pack("{si sb so sI si so so}", "cells", row->cells, "averaged", row->average,
+                                               "poisson", json_number(row->poisson), "unknowns",
+                                               (json_int_t)row->unknowns, "iterations", row->iterations, "wall_s",
+                                               json_number(row->wall_s), "error_mm", json_number(row->error_mm)));
     }
     json_object_set_new(o, "tubes", tubes);
     json_object_set_new(o, "reference_error_mm", json_number(t->reference_error_mm));

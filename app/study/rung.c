@@ -52,7 +52,10 @@ static void rung_path(const study_task *t, const study_rung *r, char *out, size_
     static const char *const element[] = {"", "_linear", "_averaged"};
     snprintf(out, size, "%s/runs/%s_x%g_r%d%s_t%g_m%d_n%g_j%d%s_l%d_s%g.pack", t->folder, t->name, r->coarsening,
              r->refined, element[r->element], r->rel_tol, r->model, r->poisson, r->threads,
-             r->contact == CONTACT_BONES ? "_bones" : r->contact == CONTACT_LIPS ? "_lips" : "", r->load_steps, r->scene_mm);
+             r->contact == CONTACT_BONES  ? "_bones"
+             : r->contact == CONTACT_LIPS ? "_lips"
+                                          : "",
+             r->load_steps, r->scene_mm);
 }
 
 static bool take_prepared(const study_task *t, const study_rung *r, prepared *p, double *meshing_s, err *e)
@@ -78,8 +81,8 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
     return true;
 }
 
-static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q,
-                  study_result *out, err *e)
+static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q, study_result *out,
+                  err *e)
 {
     plan_tissue flesh;
     if (!plan_tissue_make(t->patient, p, t->motion, r->contact == CONTACT_LIPS, &flesh, e)) return false;
@@ -97,16 +100,16 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
     if (r->threads > 0) parallel_set_threads(r->threads);
     bone_shapes bones = {0};
     plan_contact touch = {0};
-    bool ok = material_make((material_model)r->model, t->patient->material.young_kpa,
-                            r->poisson > 0 ? r->poisson : t->patient->material.poisson,
-                            &flesh.material[0].material, e) &&
-              (!r->contact || bone_shapes_make(p, &bones, e));
+    bool ok =
+        material_make((material_model)r->model, t->patient->material.young_kpa,
+                      r->poisson > 0 ? r->poisson : t->patient->material.poisson, &flesh.material[0].material, e) &&
+        (!r->contact || bone_shapes_make(p, &bones, e));
     element_kind element = (element_kind)(r->element ? r->element : t->patient->material.element);
     for (int k = 0; ok && k < flesh.material_count; k++) ok = element_choose(&flesh.material[k].material, element, e);
     if (ok && r->contact == CONTACT_BONES) plan_contact_release(&p->tissue, &bones, t->motion, &flesh.attach);
     if (ok && r->contact) {
-        plan_contact_make(r->contact, &p->tissue, &bones, &flesh.attach, t->motion, flesh.material[0].material.young_kpa,
-                          &touch);
+        plan_contact_make(r->contact, &p->tissue, &bones, &flesh.attach, t->motion,
+                          flesh.material[0].material.young_kpa, &touch);
         problem.contact = &touch.setup;
     }
     double wall = now_s(CLOCK_MONOTONIC), cpu = now_s(CLOCK_PROCESS_CPUTIME_ID);
@@ -250,8 +253,8 @@ bool study_get(const study_task *t, const study_rung *rung, study_run *out, bool
     child_end end = child_run(t->watch, work, &j, &r, sizeof r, limit_s, &use);
     *fresh = true;
     if (end == CHILD_INTERRUPTED || task_interrupted(t->watch))
-        return err_set(e, ERR_INTERRUPTED,
-                       "interrupted; what is done is kept in %s, and the same command goes on", t->folder);
+        return err_set(e, ERR_INTERRUPTED, "interrupted; what is done is kept in %s, and the same command goes on",
+                       t->folder);
     if (end != CHILD_DONE) { /* not kept: another time it may come through */
         snprintf(out->result.text, sizeof out->result.text,
                  end == CHILD_LATE ? "no end in %d s of processor time" : "crashed (out of memory?)", limit_s);

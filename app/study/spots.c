@@ -7,16 +7,11 @@ static int series_of(const study_table *t, int i)
     const study_rung *r = t->run[i].rung;
     if (!(t->error[i].mean_mm > 0) || r->contact) return -1;
     switch (r->group) {
-    case GROUP_MESH:
-        return PLAIN;
-    case GROUP_ELEMENT:
-        return AVERAGED;
-    case GROUP_TOLERANCE:
-        return TOLERANCES;
-    case GROUP_SCENE:
-        return SCENES;
-    default:
-        return -1;
+    case GROUP_MESH: return PLAIN;
+    case GROUP_ELEMENT: return AVERAGED;
+    case GROUP_TOLERANCE: return TOLERANCES;
+    case GROUP_SCENE: return SCENES;
+    default: return -1;
     }
 }
 
@@ -57,8 +52,7 @@ static int collect_halved(const study_table *t, spot s[SPOTS_MAX], int count)
                 finest = k;
         }
         if (r->group != GROUP_MESH || finest == i || finest == study_reference) continue;
-        s[count] = (spot){t->run[i].result.size_mm, study_compare(&t->run[i], &t->run[finest]).mean_mm, i,
-                          HALVED, ""};
+        s[count] = (spot){t->run[i].result.size_mm, study_compare(&t->run[i], &t->run[finest]).mean_mm, i, HALVED, ""};
         name_spot(r, &s[count]);
         if (s[count].y > 0) count++;
     }

@@ -70,7 +70,7 @@ typedef struct study_task {
     const case_file *patient;
     rigid motion[SEGMENT_COUNT];
     int load_steps;
-    const task *watch; /* may be NULL */
+    const task *watch;        /* may be NULL */
     char key[HASH_TEXT_SIZE]; /* of program, case and motion */
     const char *folder;       /* holds runs/ and prepared/ */
     const char *cache;        /* of the case's own mesh; NULL: CASE/prepared */
@@ -134,6 +134,6 @@ void study_print(const study_table *t, FILE *out);
 json_t *study_json(const study_table *t);
 bool study_plot(const study_table *t, const char *folder, err *e) MUST_CHECK;
 
-/* gnathos study --ratios: the standard moves. Prints the table or, if record is not NULL, sets it to a new object, and writes ratios.md and
- * ratios.csv. p: of the case's own mesh; the lips' edges are added to its landmarks. */
+/* gnathos study --ratios: the standard moves. Prints the table or, if record is not NULL, sets it to a new object, and
+ * writes ratios.md and ratios.csv. p: of the case's own mesh; the lips' edges are added to its landmarks. */
 bool study_ratios(study_task *t, prepared *p, FILE *out, json_t **record, err *e) MUST_CHECK;

@@ -139,8 +139,8 @@ static void ring(int n, tetmesh *out, attach_map *hang)
                 for (int t = 0; t < 5; t++, tet += 4) {
                     for (int c = 0; c < 4; c++) {
                         int corner = five[t][c] ^ ((i + j + k) % 2 ? 1 : 0);
-                        tet[c] = ((k + (corner >> 2)) * around + (j + (corner >> 1 & 1)) % around) * (n + 1) +
-                                 i + (corner & 1);
+                        tet[c] = ((k + (corner >> 2)) * around + (j + (corner >> 1 & 1)) % around) * (n + 1) + i +
+                                 (corner & 1);
                     }
                     const double *x[4];
                     for (int c = 0; c < 4; c++) x[c] = m.xyz + 3 * (size_t)tet[c];
@@ -188,8 +188,7 @@ static void work(void *context, void *result)
     region_material table = {.region = REGION_ANY};
     double *y = NEW_ARRAY(double, 2 * (SHELLS + 1));
     ring(row.cells, &m, &a);
-    bool ok = material_make(MATERIAL_SNH_LOG, j->task->patient->material.young_kpa, row.poisson,
-                            &table.material, &e) &&
+    bool ok = material_make(MATERIAL_SNH_LOG, j->task->patient->material.young_kpa, row.poisson, &table.material, &e) &&
               element_choose(&table.material, row.average ? ELEMENT_AVERAGED : ELEMENT_LINEAR, &e) &&
               exact(&table.material, y);
     equilibrium_problem problem = {.mesh = &m, .attach = &a, .materials = &table, .material_count = 1};
@@ -218,8 +217,7 @@ bool study_tubes(const study_task *task, study_tube out[STUDY_TUBES], err *e)
         job j = {task, &row};
         child_use use;
         if (child_run(task->watch, work, &j, &row, sizeof row, 600, &use) == CHILD_INTERRUPTED)
-            return err_set(e, ERR_INTERRUPTED,
-                           "interrupted; what is done is kept in %s, and the same command goes on",
+            return err_set(e, ERR_INTERRUPTED, "interrupted; what is done is kept in %s, and the same command goes on",
                            task->folder);
         out[i] = row;
     }

@@ -56,8 +56,7 @@ static double least_gap(const nearest *tree, const double *xyz, int count, doubl
 {
     double least = HUGE_VAL;
     for (int i = 0; i < count; i++) {
-        double p[3] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2] + by},
-               d = nearest_point(tree, p, NULL, NULL);
+        double p[3] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2] + by}, d = nearest_point(tree, p, NULL, NULL);
         if (d < down_mm && nearest_inside(tree, p)) d = -d;
         least = fmin(least, d);
     }
@@ -94,8 +93,7 @@ static surface shell_of(const surface *teeth, int number)
     int32_t vertices = teeth->vertex_count / SHELLS, triangles = teeth->triangle_count / SHELLS;
     surface one = surface_new(vertices, triangles);
     for (int32_t i = 0; i < 3 * vertices; i++) one.xyz[i] = teeth->xyz[3 * vertices * number + i];
-    for (int32_t i = 0; i < 3 * triangles; i++)
-        one.tri[i] = teeth->tri[3 * triangles * number + i] - vertices * number;
+    for (int32_t i = 0; i < 3 * triangles; i++) one.tri[i] = teeth->tri[3 * triangles * number + i] - vertices * number;
     return one;
 }
 
@@ -107,8 +105,7 @@ static int shell_nearest(const surface *teeth, const double p[3])
     return (int)(best / (teeth->vertex_count / SHELLS));
 }
 
-bool bite_settle(const surface *upper, surface *lower, const place *list, int count, landmarks *points,
-                 err *e)
+bool bite_settle(const surface *upper, surface *lower, const place *list, int count, landmarks *points, err *e)
 {
     assert(lower->vertex_count % SHELLS == 0 && lower->triangle_count % SHELLS == 0);
     nearest *tree = NULL;
@@ -134,7 +131,6 @@ bool bite_settle(const surface *upper, surface *lower, const place *list, int co
         p[2] += lift[shell_nearest(lower, p)];
         landmarks_set(points, list[i].label, p);
     }
-    for (int32_t i = 0; i < lower->vertex_count; i++)
-        lower->xyz[3 * i + 2] += lift[i / (lower->vertex_count / SHELLS)];
+    for (int32_t i = 0; i < lower->vertex_count; i++) lower->xyz[3 * i + 2] += lift[i / (lower->vertex_count / SHELLS)];
     return true;
 }

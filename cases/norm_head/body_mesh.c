@@ -17,9 +17,8 @@ typedef struct sampled {
     float *value;
 } sampled;
 
-static const double boxes[BODY_COUNT][2][3] = {{{-102, -126, -156}, {102, 106, 130}},
-                                               {{-80, -106, -50}, {80, 98, 124}},
-                                               {{-64, -104, -98}, {64, 8, 12}}};
+static const double boxes[BODY_COUNT][2][3] = {
+    {{-102, -126, -156}, {102, 106, 130}}, {{-80, -106, -50}, {80, 98, 124}}, {{-64, -104, -98}, {64, 8, 12}}};
 
 double body_distance(const bodies *b, body_id id, const double p[3])
 {
@@ -46,8 +45,7 @@ static void sample_rows(int64_t begin, int64_t end, void *context)
     for (int64_t row = begin; row < end; row++)
         for (int i = 0; i < s->count[0]; i++) {
             int64_t j = row % s->count[1], k = row / s->count[1];
-            double p[3] = {s->low[0] + step_mm * i, s->low[1] + step_mm * (double)j,
-                           s->low[2] + step_mm * (double)k};
+            double p[3] = {s->low[0] + step_mm * i, s->low[1] + step_mm * (double)j, s->low[2] + step_mm * (double)k};
             s->value[row * s->count[0] + i] = (float)body_distance(s->b, s->id, p);
         }
 }
@@ -69,8 +67,7 @@ static int label(const double p[3], void *context)
 /* Fine where the face moves and where small things are, coarse at the back. */
 static double skin_size(const double p[3])
 {
-    double mouth = sdf_ellipsoid(p, 0, -92, -48, 30, 16, 14),
-           nose = sdf_ellipsoid(p, 0, -104, -20, 20, 16, 16);
+    double mouth = sdf_ellipsoid(p, 0, -92, -48, 30, 16, 14), nose = sdf_ellipsoid(p, 0, -104, -20, 20, 16, 16);
     double eyes = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 31, -84, 14, 20, 12, 13);
     double ears = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 76, 8, 2, 10, 22, 36);
     double brows = sdf_ellipsoid((double[3]){fabs(p[0]), p[1], p[2]}, 30, -88, 35, 22, 10, 6);

@@ -178,30 +178,24 @@ _Static_assert((int)SKIN_TUBE_COUNT <= (int)SKIN_TUBES, "room in bodies");
 void body_skin_tubes(tube *t)
 {
     /* the ear in its own axes: out, back, up */
-    static const double helix[][4] = {{-1, -7, 2, 2.4},    {1.5, -9.0, 12, 2.6}, {4.5, -5.5, 23, 2.6},
-                                      {6, 3, 29, 2.5},     {7, 12, 26, 2.6},     {7.5, 17, 15, 2.5},
-                                      {6.5, 16.5, 3, 2.4}, {5, 12.5, -9, 2.4},   {3.5, 7, -19, 2.8},
-                                      {2.5, 1, -24, 2.5}};
+    static const double helix[][4] = {
+        {-1, -7, 2, 2.4},   {1.5, -9.0, 12, 2.6}, {4.5, -5.5, 23, 2.6}, {6, 3, 29, 2.5},    {7, 12, 26, 2.6},
+        {7.5, 17, 15, 2.5}, {6.5, 16.5, 3, 2.4},  {5, 12.5, -9, 2.4},   {3.5, 7, -19, 2.8}, {2.5, 1, -24, 2.5}};
     t[HELIX] = tube_round(helix, COUNT(helix));
     static const double antihelix[][4] = {
         {4, 3, 20, 1.2}, {5, 8, 12, 2.0}, {5, 9.5, 2, 2.3}, {4.2, 7, -8, 2.2}, {3.4, 1.5, -13, 2.2}};
     t[ANTIHELIX] = tube_round(antihelix, COUNT(antihelix));
-    static const double ridge[][4] = {{0, -85.6, 25, 6.0},
-                                      {0, -90.9, 13, 6.4},
-                                      {0, -97.2, 0, 6.6},
-                                      {0, -102.6, -10, 7.0},
-                                      {0, -106.9, -16.8, 7.5}};
+    static const double ridge[][4] = {
+        {0, -85.6, 25, 6.0}, {0, -90.9, 13, 6.4}, {0, -97.2, 0, 6.6}, {0, -102.6, -10, 7.0}, {0, -106.9, -16.8, 7.5}};
     t[RIDGE] = tube_round(ridge, COUNT(ridge));
     static const double wall[][4] = {
         {5.5, -83.5, 19, 5.8}, {6.3, -87.2, 6, 6.2}, {7, -92, -7, 7.0}, {8.2, -95.5, -16, 7.2}};
     t[WALL] = tube_round(wall, COUNT(wall));
-    static const double upper[][4] = {{-5, -95.1, -46.2, 4.7}, {0, -94.9, -46.5, 4.6},
-                                      {5, -95.1, -46.2, 4.7},  {11, -93.0, -46.8, 4.2},
-                                      {17, -89.9, -48.0, 3.2}, {24, -85.6, -50.0, 1.6}};
+    static const double upper[][4] = {{-5, -95.1, -46.2, 4.7}, {0, -94.9, -46.5, 4.6},  {5, -95.1, -46.2, 4.7},
+                                      {11, -93.0, -46.8, 4.2}, {17, -89.9, -48.0, 3.2}, {24, -85.6, -50.0, 1.6}};
     t[UPPER_LIP] = tube_round(upper, COUNT(upper));
-    static const double lower[][4] = {{-6, -93.2, -54.5, 5.4}, {0, -93.5, -54.6, 5.4},
-                                      {6, -93.2, -54.5, 5.4},  {12, -91.3, -54.1, 4.8},
-                                      {18, -88.4, -53.3, 3.5}, {24, -85.4, -51.6, 1.7}};
+    static const double lower[][4] = {{-6, -93.2, -54.5, 5.4}, {0, -93.5, -54.6, 5.4},  {6, -93.2, -54.5, 5.4},
+                                      {12, -91.3, -54.1, 4.8}, {18, -88.4, -53.3, 3.5}, {24, -85.4, -51.6, 1.7}};
     t[LOWER_LIP] = tube_round(lower, COUNT(lower));
     static const double muscle[][4] = {
         {49, 14, -32, 6}, {44, 8, -60, 6.5}, {34.5, -6, -95, 6.5}, {24, -15, -125, 6}, {14, -19.5, -155, 6}};
@@ -209,8 +203,8 @@ void body_skin_tubes(tube *t)
 }
 
 /* A groove of given radii along z = height(x), with its middle on the surface that `distance` tells. */
-static tube groove_on(const bodies *b, double (*distance)(const bodies *, const double[3]), double from,
-                      double to, double (*height)(double), double radius)
+static tube groove_on(const bodies *b, double (*distance)(const bodies *, const double[3]), double from, double to,
+                      double (*height)(double), double radius)
 {
     enum { POINTS = 9 };
     double control[POINTS][4];
@@ -283,10 +277,7 @@ static double nostrils(const double p[3])
     return sdf_ellipsoid_turned(p, at, semi, 0.1, -0.35, -0.15);
 }
 
-double skin_lip_line(double x)
-{
-    return -50.2 - 0.6 * (x / 25) * (x / 25);
-}
+double skin_lip_line(double x) { return -50.2 - 0.6 * (x / 25) * (x / 25); }
 double skin_lip_top(double x)
 {
     double arch = sdf_max(1 - (x / 25) * (x / 25), 0);
@@ -298,10 +289,7 @@ double skin_lip_bottom(double x)
     return skin_lip_line(x) - 8.6 * pow(arch, 0.75);
 }
 
-static double bump(double x, double width)
-{
-    return exp(-0.5 * (x / width) * (x / width));
-}
+static double bump(double x, double width) { return exp(-0.5 * (x / width) * (x / width)); }
 
 /* The lips touch: between them is a groove no deeper than they are round, so that nothing overhangs. */
 static double lips(const bodies *b, const double p[3], double d)

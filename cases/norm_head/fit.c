@@ -90,8 +90,8 @@ static void push(surface *skin, const double *lack, const double *normal)
     free(move);
 }
 
-bool fit_clear(surface *skin, const bool *exempt, const surface *const *bones, int bone_count,
-               double least_mm, double *left_mm, err *e)
+bool fit_clear(surface *skin, const bool *exempt, const surface *const *bones, int bone_count, double least_mm,
+               double *left_mm, err *e)
 {
     surface all = {0};
     for (int i = 0; i < bone_count; i++) {

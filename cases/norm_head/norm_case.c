@@ -101,10 +101,9 @@ bool norm_case_read_recipe(const char *path, norm_head_params *out, err *e)
 
 static json_t *recipe(const norm_head_params *p)
 {
-    json_t *o =
-        json_pack("{s:i, s:s, s:i, s:I, s:f, s:f, s:f}", "gnathos", 1, "sex", p->sex == NORM_MALE ? "m" : "f",
-                  "class", p->skeletal_class, "seed", (json_int_t)p->seed, "open_bite_mm", p->open_bite_mm,
-                  "asymmetry_mm", p->asymmetry_mm, "coarseness", p->coarseness);
+    json_t *o = json_pack("{s:i, s:s, s:i, s:I, s:f, s:f, s:f}", "gnathos", 1, "sex", p->sex == NORM_MALE ? "m" : "f",
+                          "class", p->skeletal_class, "seed", (json_int_t)p->seed, "open_bite_mm", p->open_bite_mm,
+                          "asymmetry_mm", p->asymmetry_mm, "coarseness", p->coarseness);
     json_t *set = json_object();
     for (int i = 0; i < MEASURE_COUNT; i++)
         if (p->is_set[i]) json_object_set_new(set, measures[i].name, json_real(p->set[i]));
@@ -114,11 +113,10 @@ static json_t *recipe(const norm_head_params *p)
 
 static json_t *description(const char *name)
 {
-    return json_pack("{s:i, s:s, s:s, s:s, s:{s:s, s:s, s:s, s:s, s:s}, s:s, s:[s,s,s]}", "gnathos", 1,
-                     "name", name, "units", "mm", "frame", "LPS", "surfaces", "skin", "skin.ply", "skull",
-                     "skull.ply", "mandible", "mandible.ply", "upper_teeth", "upper_teeth.ply", "lower_teeth",
-                     "lower_teeth.ply", "landmarks", "landmarks.mrk.json", "osteotomies", "le_fort_1", "bsso",
-                     "genioplasty");
+    return json_pack("{s:i, s:s, s:s, s:s, s:{s:s, s:s, s:s, s:s, s:s}, s:s, s:[s,s,s]}", "gnathos", 1, "name", name,
+                     "units", "mm", "frame", "LPS", "surfaces", "skin", "skin.ply", "skull", "skull.ply", "mandible",
+                     "mandible.ply", "upper_teeth", "upper_teeth.ply", "lower_teeth", "lower_teeth.ply", "landmarks",
+                     "landmarks.mrk.json", "osteotomies", "le_fort_1", "bsso", "genioplasty");
 }
 
 static char *in_folder(const char *folder, const char *file)
@@ -147,16 +145,14 @@ static bool write_measures(const norm_head *h, const char *folder, err *e)
     if (!ok) return false;
     fprintf(w.stream, "measure,asked,obtained,source,meaning\n");
     for (int i = 0; i < MEASURE_COUNT; i++)
-        fprintf(w.stream, "%s,%.3f,%.3f,%s,\"%s\"\n", measures[i].name, h->asked[i], h->obtained[i],
-                measures[i].source, measures[i].help);
+        fprintf(w.stream, "%s,%.3f,%.3f,%s,\"%s\"\n", measures[i].name, h->asked[i], h->obtained[i], measures[i].source,
+                measures[i].help);
     return whole_file_close(&w, e);
 }
 
-bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *folder, const char *name,
-                     err *e)
+bool norm_case_write(const norm_head *h, const norm_head_params *p, const char *folder, const char *name, err *e)
 {
-    static const char *const files[] = {"skin.ply", "skull.ply", "mandible.ply", "upper_teeth.ply",
-                                        "lower_teeth.ply"};
+    static const char *const files[] = {"skin.ply", "skull.ply", "mandible.ply", "upper_teeth.ply", "lower_teeth.ply"};
     const surface *const parts[] = {&h->skin, &h->skull, &h->mandible, &h->upper_teeth, &h->lower_teeth};
     for (int i = 0; i < 5; i++) {
         char *path = in_folder(folder, files[i]);

@@ -30,8 +30,8 @@ bool norm_head_params_check(const norm_head_params *p, err *e)
         return err_set(e, ERR_USAGE, "asymmetry %g mm: -12 to 12 can be built", p->asymmetry_mm);
     for (int i = 0; i < MEASURE_COUNT; i++)
         if (p->is_set[i] && !(p->set[i] >= measures[i].low && p->set[i] <= measures[i].high))
-            return err_set(e, ERR_USAGE, "%s = %g: %g to %g can be built", measures[i].name, p->set[i],
-                           measures[i].low, measures[i].high);
+            return err_set(e, ERR_USAGE, "%s = %g: %g to %g can be built", measures[i].name, p->set[i], measures[i].low,
+                           measures[i].high);
     return true;
 }
 
@@ -53,10 +53,10 @@ static const double skull_anchors[][3] = {{0, -88, 66},  {0, -55, 103}, {0, 10, 
                                           {0, 40, -20},  {60, 0, 60},   {55, 40, 10}, {38, -76, 60},
                                           {50, -63, 28}, {54, 10, -26}, {48, -11, 4}, {46, -64, -8}};
 static const double mandible_anchors[][3] = {{44.3, -39.6, -8}};
-static const double skin_anchors[][3] = {
-    {0, -94, 68},  {0, -62, 107}, {0, 8, 119},   {0, 88, 55},    {0, 70, -20},  {70, 0, 60},
-    {66, 45, 20},  {44, -78, 60}, {52, -72, 30},  {66, -28, 30}, {31, -88, 14},
-    {45, -80, -3}, {75, 20, 30},  {76, 10, -22}, {0, -30, -150}, {0, 60, -150}};
+static const double skin_anchors[][3] = {{0, -94, 68},  {0, -62, 107}, {0, 8, 119},    {0, 88, 55},
+                                         {0, 70, -20},  {70, 0, 60},   {66, 45, 20},   {44, -78, 60},
+                                         {52, -72, 30}, {66, -28, 30}, {31, -88, 14},  {45, -80, -3},
+                                         {75, 20, 30},  {76, 10, -22}, {0, -30, -150}, {0, 60, -150}};
 
 /* Where men differ beyond size and measures: the neck. */
 typedef struct dimorphic {
@@ -64,15 +64,13 @@ typedef struct dimorphic {
 } dimorphic;
 static const dimorphic skin_dimorphic[] = {{{46, 10, -150}, {6, 0, 0}}, {{46, 13, -95}, {5, 0, 0}}};
 
-static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex,
-                          const double scale[3])
+static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex, const double scale[3])
 {
     for (int i = 0; i < count; i++)
         for (int side = 1; side >= -1; side -= 2) {
             double from[3], to[3];
             vec_copy(list[i].at, from);
-            for (int c = 0; c < 3; c++)
-                to[c] = from[c] * scale[c] + (sex == NORM_MALE ? list[i].male_shift[c] : 0);
+            for (int c = 0; c < 3; c++) to[c] = from[c] * scale[c] + (sex == NORM_MALE ? list[i].male_shift[c] : 0);
             from[0] *= side;
             to[0] *= side;
             warp_add(w, from, to);
@@ -86,8 +84,8 @@ static int place_number(const place *list, int count, const char *label)
     return -1;
 }
 
-static void warp_by(const warp *w, surface *s, surface *teeth, const place *list, int count,
-                    place_on bone, place_on crowns, landmarks *points)
+static void warp_by(const warp *w, surface *s, surface *teeth, const place *list, int count, place_on bone,
+                    place_on crowns, landmarks *points)
 {
     warp_surface(w, s);
     if (teeth) warp_surface(w, teeth);
@@ -113,8 +111,7 @@ static const follower followers[] = {{{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25},
                                      {{24, -86, -72}, {{"B", 0.5}, {"Pog", 0.5}, {NULL, 0}}},
                                      {{26, -77, -86}, {{"Me", 0.9}, {"Go_L", 0.1}, {NULL, 0}}}};
 
-static void add_followers(warp_pairs *w, const place *list, int count, const double *to,
-                          const double scale[3])
+static void add_followers(warp_pairs *w, const place *list, int count, const double *to, const double scale[3])
 {
     for (size_t i = 0; i < sizeof followers / sizeof *followers; i++)
         for (int side = 1; side >= -1; side -= 2) {
@@ -154,8 +151,8 @@ typedef struct fields { /* the pairs of the three warps */
     warp up, down; /* through the last two */
 } fields;
 
-static fields make_fields(const norm_head_params *p, const place *list, int count,
-                          const thickness_site *sites, const double *asked, double lower_molars_mm)
+static fields make_fields(const norm_head_params *p, const place *list, int count, const thickness_site *sites,
+                          const double *asked, double lower_molars_mm)
 {
     double *to = NEW_ARRAY(double, 3 * count), scale[3];
     bool *held = NEW_ARRAY(bool, count);

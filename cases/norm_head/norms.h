@@ -69,7 +69,8 @@ typedef struct measure {
 extern const measure measures[MEASURE_COUNT];
 
 int measure_find(const char *name); /* -1 if there is none */
-/* Of the landmarks, for those before GLABELLA_SOFT_MM; asserts that those it needs are there. Frankfort plane: z = 0 of the generator's axes. */
+/* Of the landmarks, for those before GLABELLA_SOFT_MM; asserts that those it needs are there. Frankfort plane: z = 0 of
+ * the generator's axes. */
 double measure_of(measure_id id, const landmarks *l);
 
 /* Means of the sex, shifted to the skeletal class 1, 2 or 3, plus one draw of each spread (within two

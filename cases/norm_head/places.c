@@ -86,16 +86,13 @@ static void look(const bodies *b, const search *s, double p[3])
             if (vec_normalize(t) < 1e-3) break;
             vec_axpy(p, step, t, q);
             place_project(b, s->body, midline, q);
-            if (vec_dot(q, s->direction) <= vec_dot(p, s->direction) + 1e-4 ||
-                vec_distance(q, start) > s->reach)
-                break;
+            if (vec_dot(q, s->direction) <= vec_dot(p, s->direction) + 1e-4 || vec_distance(q, start) > s->reach) break;
             vec_copy(q, p);
         }
     }
 }
 
-static void add(place **list, int *count, const char *label, int side, place_on on, bool visible,
-                const double p[3])
+static void add(place **list, int *count, const char *label, int side, place_on on, bool visible, const double p[3])
 {
     *list = GROW_ARRAY(place, *list, *count + 1);
     place *q = &(*list)[(*count)++];
@@ -106,8 +103,7 @@ static void add(place **list, int *count, const char *label, int side, place_on 
     if (side < 0) q->xyz[0] = -q->xyz[0];
 }
 
-static void add_both(place **list, int *count, const char *label, place_on on, bool visible,
-                     const double p[3])
+static void add_both(place **list, int *count, const char *label, place_on on, bool visible, const double p[3])
 {
     add(list, count, label, 1, on, visible, p);
     add(list, count, label, -1, on, visible, p);
@@ -121,8 +117,7 @@ static void add_tooth(place **list, int *count, const char *label, place_on on, 
     add_both(list, count, label, on, true, p);
 }
 
-static void add_incisors(place **list, int *count, const char *edge, const char *apex, place_on on,
-                         const tooth *t)
+static void add_incisors(place **list, int *count, const char *edge, const char *apex, place_on on, const tooth *t)
 {
     double p[3];
     tooth_point(t, 0, 0, 0, false, p);

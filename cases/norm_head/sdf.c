@@ -10,8 +10,8 @@ double sdf_ellipsoid(const double p[3], double x, double y, double z, double a, 
     return k0 * (k0 - 1) / k1;
 }
 
-double sdf_ellipsoid_turned(const double p[3], const double centre[3], const double semi[3], double pitch,
-                            double yaw, double roll)
+double sdf_ellipsoid_turned(const double p[3], const double centre[3], const double semi[3], double pitch, double yaw,
+                            double roll)
 {
     double d[3], q[3], t;
     vec_sub(p, centre, d);
@@ -102,8 +102,6 @@ void sdf_spline(const double *points, int width, int count, double s, double *ou
         /* end points are mirrored through their neighbours */
         double a = i > 0 ? b[k - width] : 2 * b[k] - c[k];
         double d = i + 2 < count ? c[k + width] : 2 * c[k] - b[k];
-        out[k] =
-            b[k] +
-            0.5 * t * (c[k] - a + t * (2 * a - 5 * b[k] + 4 * c[k] - d + t * (3 * (b[k] - c[k]) + d - a)));
+        out[k] = b[k] + 0.5 * t * (c[k] - a + t * (2 * a - 5 * b[k] + 4 * c[k] - d + t * (3 * (b[k] - c[k]) + d - a)));
     }
 }

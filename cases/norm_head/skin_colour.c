@@ -33,13 +33,13 @@ static double brow(double x, double y, double z)
  * the ear and behind it down to the nape. The ear stays bare. */
 static double scalp(double x, double y, double z)
 {
-    static const double line[][2] = {{-110, 84}, {-85, 80}, {-68, 66},  {-55, 52}, {-42, 46}, {-30, 30},
-                                     {-20, 10},  {-8, 6},   {12, -6},   {24, -26}, {50, -44}, {120, -52}};
+    static const double line[][2] = {{-110, 84}, {-85, 80}, {-68, 66}, {-55, 52}, {-42, 46}, {-30, 30},
+                                     {-20, 10},  {-8, 6},   {12, -6},  {24, -26}, {50, -44}, {120, -52}};
     double height = line[0][1];
     for (int i = 0; i + 1 < COUNT(line); i++)
         if (y > line[i][0])
-            height = sdf_mix(line[i][1], line[i + 1][1],
-                             sdf_clamp((y - line[i][0]) / (line[i + 1][0] - line[i][0]), 0, 1));
+            height =
+                sdf_mix(line[i][1], line[i + 1][1], sdf_clamp((y - line[i][0]) / (line[i + 1][0] - line[i][0]), 0, 1));
     double ear = hypot((y - 5) / 19, (z - 2) / 33);
     double bare = x > 55 ? 1 - sdf_step(0.9, 1.15, ear) : 0;
     return 0.62 * sdf_step(-3, 13, z - height) * (1 - bare);
@@ -61,8 +61,7 @@ uint8_t *skin_colours(const surface *skin)
         blend(c, hair, fmax(brow(x, y, z), scalp(x, y, z)));
         if (y < -70 && x > 15 && x < 47) {
             double off = fabs(z - skin_lid_line(x));
-            blend(c, lash,
-                  0.7 * (1 - sdf_step(0.3, 1.4, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
+            blend(c, lash, 0.7 * (1 - sdf_step(0.3, 1.4, off)) * sdf_step(16, 19, x) * (1 - sdf_step(43, 46, x)));
         }
         for (int k = 0; k < 3; k++) rgb[3 * i + k] = (uint8_t)(sdf_clamp(c[k], 0, 255) + 0.5);
     }

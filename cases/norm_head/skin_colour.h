@@ -2,6 +2,7 @@
 #pragma once
 #include "geometry/surface.h"
 
-/* rgb[3*vertex_count], 0..255: lips, cheeks, brows, lash lines and cropped hair. Of the unwarped skin. The caller frees it.
+/* rgb[3*vertex_count], 0..255: lips, cheeks, brows, lash lines and cropped hair. Of the unwarped skin. The caller frees
+ * it.
  */
 uint8_t *skin_colours(const surface *skin);

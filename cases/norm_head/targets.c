@@ -25,10 +25,7 @@ static double base(const plan_points *t, const char *label, int axis)
 {
     return t->places[find(t, label)].xyz[axis] * t->scale[axis];
 }
-static double *point(const plan_points *t, const char *label)
-{
-    return t->to + 3 * find(t, label);
-}
+static double *point(const plan_points *t, const char *label) { return t->to + 3 * find(t, label); }
 static double moved(const plan_points *t, const char *label, int axis)
 {
     return point(t, label)[axis] - base(t, label, axis);
@@ -62,10 +59,7 @@ static void shift_pair(plan_points *t, const char *label, double out, double y, 
     hold_pair(t, label, base(t, name, 0) + out, base(t, name, 1) + y, base(t, name, 2) + z);
 }
 
-static double radians(double deg)
-{
-    return deg * M_PI / 180;
-}
+static double radians(double deg) { return deg * M_PI / 180; }
 
 static void upper_jaw(plan_points *t, const double *v)
 {
@@ -78,8 +72,7 @@ static void upper_jaw(plan_points *t, const double *v)
     double ray = radians(v[SNA_DEG] + v[SN_FH_DEG]); /* from straight back, turning down */
     double a_y = n[0] + (n[1] - a_z) * cos(ray) / sin(ray);
     hold(t, "A", a_y, a_z);
-    double ans_y = a_y + base(t, "ANS", 1) - base(t, "A", 1),
-           palate = radians(v[PALATE_SN_DEG] - v[SN_FH_DEG]);
+    double ans_y = a_y + base(t, "ANS", 1) - base(t, "A", 1), palate = radians(v[PALATE_SN_DEG] - v[SN_FH_DEG]);
     hold(t, "ANS", ans_y, ans_z);
     hold(t, "PNS", ans_y + v[ANS_PNS_MM] * cos(palate), ans_z + v[ANS_PNS_MM] * sin(palate));
     /* incisor: with the jaw, the edge forwards as it leans */
@@ -91,15 +84,13 @@ static void upper_jaw(plan_points *t, const double *v)
     hold(t, "U1", u_y, u_z);
     hold(t, "U1_apex", u_y + length * sin(lean), u_z + length * cos(lean));
     double jaw_y = moved(t, "A", 1);
-    double c_y = base(t, "U3_L", 1) + 0.5 * (moved(t, "U1", 1) + jaw_y),
-           c_z = base(t, "U3_L", 2) + moved(t, "U1", 2);
+    double c_y = base(t, "U3_L", 1) + 0.5 * (moved(t, "U1", 1) + jaw_y), c_z = base(t, "U3_L", 2) + moved(t, "U1", 2);
     hold_pair(t, "U3", v[INTERCANINE_MM] / 2, c_y, c_z);
     double m_y = base(t, "U6_L", 1) + jaw_y;
     hold_pair(t, "U6", v[INTERMOLAR_MM] / 2, m_y,
               ans_z - (v[U6_PALATE_MM] - (m_y - ans_y) * sin(palate)) / cos(palate));
     double wide = v[PIRIFORM_MM] / 2;
-    hold_pair(t, "PR", wide, base(t, "PR_L", 1) + moved(t, "ANS", 1),
-              base(t, "PR_L", 2) + moved(t, "ANS", 2));
+    hold_pair(t, "PR", wide, base(t, "PR_L", 1) + moved(t, "ANS", 1), base(t, "PR_L", 2) + moved(t, "ANS", 2));
     shift_pair(t, "ZB", 0, 0.6 * jaw_y, 0.7 * moved(t, "ANS", 2));
     shift_pair(t, "PM", 0, moved(t, "PNS", 1), moved(t, "PNS", 2));
     shift_pair(t, "Or", 0, 0.5 * moved(t, "N", 1), 0);
@@ -137,10 +128,8 @@ static void lower_jaw(plan_points *t, const double *v, double lower_molars_mm)
     double axis = plane + radians(v[IMPA_DEG] - 90); /* leaning forwards from upright */
     hold(t, "L1_apex", l_y + length * sin(axis), l_z - length * cos(axis));
     double body_y = 0.5 * (moved(t, "L1", 1) + moved(t, "B", 1));
-    shift_pair(t, "L3", 0.5 * (point(t, "U3_L")[0] - base(t, "U3_L", 0)),
-               0.7 * moved(t, "L1", 1) + 0.3 * body_y, 0);
-    point(t, "L3_L")[2] = point(t, "L3_R")[2] =
-        base(t, "L3_L", 2) + moved(t, "L1", 2) - 0.5 * lower_molars_mm;
+    shift_pair(t, "L3", 0.5 * (point(t, "U3_L")[0] - base(t, "U3_L", 0)), 0.7 * moved(t, "L1", 1) + 0.3 * body_y, 0);
+    point(t, "L3_L")[2] = point(t, "L3_R")[2] = base(t, "L3_L", 2) + moved(t, "L1", 2) - 0.5 * lower_molars_mm;
     double molar_out = point(t, "U6_L")[0] - base(t, "U6_L", 0);
     shift_pair(t, "L6", molar_out, body_y, moved(t, "U6_L", 2) - lower_molars_mm);
     shift_pair(t, "L7", molar_out, body_y, moved(t, "U6_L", 2) - lower_molars_mm);
@@ -164,13 +153,11 @@ static void face(plan_points *t, const double *v)
     hold(t, "Ls", ls_y, base(t, "Ls", 2) + 0.3 * moved(t, "Sn", 2) + 0.7 * stm_move);
     hold(t, "Stm", base(t, "Stm", 1) + 0.5 * (ls_move + li_move), stm_z);
     hold(t, "Li_soft", li_y, base(t, "Li_soft", 2) + 0.8 * stm_move + 0.2 * moved(t, "L1", 2));
-    hold_pair(t, "Ch", v[MOUTH_MM] / 2, base(t, "Ch_L", 1) + 0.45 * (ls_move + li_move),
-              base(t, "Ch_L", 2) + stm_move);
+    hold_pair(t, "Ch", v[MOUTH_MM] / 2, base(t, "Ch_L", 1) + 0.45 * (ls_move + li_move), base(t, "Ch_L", 2) + stm_move);
     hold(t, "B'", b[1] - v[SUPRAMENTAL_SOFT_MM], base(t, "B'", 2) + moved(t, "B", 2));
     hold(t, "Pg'", pog[1] - v[POGONION_SOFT_MM], base(t, "Pg'", 2) + moved(t, "Pog", 2));
     hold(t, "Me'", base(t, "Me'", 1) + moved(t, "Me", 1), me[2] - v[MENTON_SOFT_MM]);
-    shift(t, "Gn'", 0.5 * (moved(t, "Pg'", 1) + moved(t, "Me'", 1)),
-          0.5 * (moved(t, "Pg'", 2) + moved(t, "Me'", 2)));
+    shift(t, "Gn'", 0.5 * (moved(t, "Pg'", 1) + moved(t, "Me'", 1)), 0.5 * (moved(t, "Pg'", 2) + moved(t, "Me'", 2)));
     shift(t, "C", 0.5 * moved(t, "Me", 1), 0.5 * moved(t, "Me", 2));
     double zy = v[BIZYGOMATIC_MM] / 2 - base(t, "Zy_L", 0);
     shift_pair(t, "T", 0.5 * zy, 0, 0);
@@ -207,8 +194,8 @@ void targets_scale(norm_sex sex, double scale[3])
     for (int c = 0; c < 3; c++) scale[c] = sex == NORM_MALE ? male[c] : 1;
 }
 
-void targets_find(const place *places, int count, const norm_head_params *p,
-                  const double value[MEASURE_COUNT], double lower_molars_mm, double *to, bool *held)
+void targets_find(const place *places, int count, const norm_head_params *p, const double value[MEASURE_COUNT],
+                  double lower_molars_mm, double *to, bool *held)
 {
     plan_points t = {.places = places, .count = count, .to = to, .held = held};
     targets_scale(p->sex, t.scale);

@@ -2,31 +2,23 @@
 #include "sdf.h"
 #include <math.h>
 
-const tooth upper_teeth[TEETH_PER_SIDE] = {
-    {{4.2, -90.3, -51.5}, {0.03, 0.36, 0.93}, 6, 8.2, 7, 10.2, 13},
-    {{11.2, -87.6, -50.8}, {0.06, 0.34, 0.93}, 24, 6.5, 6, 9, 13},
-    {{16.9, -82.2, -51.0}, {0.02, 0.22, 0.97}, 48, 7.4, 8, 10, 17},
-    {{18.9, -74.6, -48.9}, {0.03, 0.10, 0.99}, 74, 7, 9, 8.4, 14},
-    {{20.5, -67.3, -48.2}, {0.02, 0.06, 0.99}, 78, 6.8, 9, 8.2, 14},
-    {{22.4, -58.3, -47.0}, {-0.02, 0.03, 0.99}, 81, 10, 11, 7.5, 11.5},
-    {{24.2, -48.5, -45.8}, {-0.04, -0.04, 0.99}, 82, 9.2, 11, 7, 11.5}};
+const tooth upper_teeth[TEETH_PER_SIDE] = {{{4.2, -90.3, -51.5}, {0.03, 0.36, 0.93}, 6, 8.2, 7, 10.2, 13},
+                                           {{11.2, -87.6, -50.8}, {0.06, 0.34, 0.93}, 24, 6.5, 6, 9, 13},
+                                           {{16.9, -82.2, -51.0}, {0.02, 0.22, 0.97}, 48, 7.4, 8, 10, 17},
+                                           {{18.9, -74.6, -48.9}, {0.03, 0.10, 0.99}, 74, 7, 9, 8.4, 14},
+                                           {{20.5, -67.3, -48.2}, {0.02, 0.06, 0.99}, 78, 6.8, 9, 8.2, 14},
+                                           {{22.4, -58.3, -47.0}, {-0.02, 0.03, 0.99}, 81, 10, 11, 7.5, 11.5},
+                                           {{24.2, -48.5, -45.8}, {-0.04, -0.04, 0.99}, 82, 9.2, 11, 7, 11.5}};
 
-const tooth lower_teeth[TEETH_PER_SIDE] = {
-    {{2.7, -87.3, -48.4}, {0.00, 0.40, -0.92}, 5, 5.2, 6, 8.8, 12.5},
-    {{8.0, -86.0, -48.2}, {0.04, 0.37, -0.93}, 15, 5.6, 6.3, 9.2, 14},
-    {{13.2, -82.6, -47.8}, {0.06, 0.24, -0.97}, 42, 6.8, 7.5, 10, 14.2},
-    {{15.6, -76.0, -47.0}, {0.08, 0.12, -0.99}, 70, 7, 7.8, 8.4, 14},
-    {{17.0, -69.0, -46.6}, {0.10, 0.06, -0.99}, 76, 7, 8.2, 8, 14.5},
-    {{18.7, -59.8, -45.8}, {0.14, -0.02, -0.99}, 81, 11, 10.3, 7.5, 14},
-    {{20.7, -49.3, -44.8}, {0.18, -0.10, -0.98}, 81, 10.4, 10, 7, 13}};
+const tooth lower_teeth[TEETH_PER_SIDE] = {{{2.7, -87.3, -48.4}, {0.00, 0.40, -0.92}, 5, 5.2, 6, 8.8, 12.5},
+                                           {{8.0, -86.0, -48.2}, {0.04, 0.37, -0.93}, 15, 5.6, 6.3, 9.2, 14},
+                                           {{13.2, -82.6, -47.8}, {0.06, 0.24, -0.97}, 42, 6.8, 7.5, 10, 14.2},
+                                           {{15.6, -76.0, -47.0}, {0.08, 0.12, -0.99}, 70, 7, 7.8, 8.4, 14},
+                                           {{17.0, -69.0, -46.6}, {0.10, 0.06, -0.99}, 76, 7, 8.2, 8, 14.5},
+                                           {{18.7, -59.8, -45.8}, {0.14, -0.02, -0.99}, 81, 11, 10.3, 7.5, 14},
+                                           {{20.7, -49.3, -44.8}, {0.18, -0.10, -0.98}, 81, 10.4, 10, 7, 13}};
 
-enum {
-    RING = 30,
-    TABLE_RINGS = 5,
-    CROWN_RINGS = 8,
-    ROOT_RINGS = 7,
-    RINGS = TABLE_RINGS + CROWN_RINGS + ROOT_RINGS
-};
+enum { RING = 30, TABLE_RINGS = 5, CROWN_RINGS = 8, ROOT_RINGS = 7, RINGS = TABLE_RINGS + CROWN_RINGS + ROOT_RINGS };
 
 /* Half width and half depth as shares of width and depth at rows of `share` of the crown's height. */
 typedef struct crown_form {
@@ -41,10 +33,7 @@ static const crown_form forms[4] = {
     {{0, 0.2, 0.45, 0.8, 1}, {0.38, 0.46, 0.495, 0.46, 0.42}, {0.30, 0.42, 0.50, 0.47, 0.43}, 2.5, 1.4},
     {{0, 0.2, 0.45, 0.8, 1}, {0.42, 0.48, 0.495, 0.47, 0.44}, {0.34, 0.44, 0.50, 0.48, 0.45}, 3.2, 1.2}};
 
-static const crown_form *form_of(int place)
-{
-    return &forms[place < 2 ? 0 : place == 2 ? 1 : place < 5 ? 2 : 3];
-}
+static const crown_form *form_of(int place) { return &forms[place < 2 ? 0 : place == 2 ? 1 : place < 5 ? 2 : 3]; }
 
 static void crown_section(const crown_form *f, double s, double *wide, double *deep)
 {
@@ -68,10 +57,7 @@ static double table_depth(const crown_form *f, int place, double w, double o)
     return f->cusp_mm * (1 - cusp);
 }
 
-static double round_power(double c, double n)
-{
-    return copysign(pow(fabs(c), 2 / n), c);
-}
+static double round_power(double c, double n) { return copysign(pow(fabs(c), 2 / n), c); }
 
 static void tooth_axes(const tooth *t, double axis[3], double outer[3], double mesial[3])
 {
@@ -122,8 +108,8 @@ surface tooth_surface(const tooth *t, int place, bool right)
                 n = 2;
                 along = t->crown_mm + t->root_mm * share * 0.97;
             }
-            tooth_point(t, along, deep * t->depth_mm * round_power(co, n),
-                        wide * t->width_mm * round_power(cw, n), right, s.xyz + 3 * (k * RING + i));
+            tooth_point(t, along, deep * t->depth_mm * round_power(co, n), wide * t->width_mm * round_power(cw, n),
+                        right, s.xyz + 3 * (k * RING + i));
         }
     }
     int tip = RINGS * RING, apex = tip + 1;

@@ -87,8 +87,8 @@ bool thickness_measure(const thickness_site site[THICKNESS_SITES], const warp *u
             nearest_point(bones[upper_bone ? 0 : 1], bone, bone, NULL);
             ok = nearest_ray(outside, bone, along, hit, NULL);
             if (!ok) {
-                err_set(e, ERR_GEOMETRY, "%s: no skin over the bone at (%.1f, %.1f, %.1f) mm", measures[site[i].id].name,
-                        bone[0], bone[1], bone[2]);
+                err_set(e, ERR_GEOMETRY, "%s: no skin over the bone at (%.1f, %.1f, %.1f) mm",
+                        measures[site[i].id].name, bone[0], bone[1], bone[2]);
                 break;
             }
             double depth = vec_distance(bone, hit), *kept = &obtained[site[i].id];

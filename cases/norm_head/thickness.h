@@ -8,7 +8,7 @@
 
 typedef struct thickness_site { /* on the mean head, left side or midline */
     measure_id id;
-    place_on on;         /* the bone below it */
+    place_on on; /* the bone below it */
     bool midline;
     double bone[3];      /* on that bone */
     double direction[3]; /* unit, outwards; the depth is measured along it */

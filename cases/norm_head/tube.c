@@ -24,8 +24,7 @@ tube tube_round(const double (*control)[4], int count)
     t.stretch = mem_alloc((size_t)count - 1, sizeof *t.stretch);
     for (int i = 0; i < t.count; i++) sdf_spline(control[0], 4, count, (double)i / TUBE_STEPS, t.ball[i]);
     for (int i = 0; i + 1 < count; i++)
-        t.stretch[i][3] =
-            ball_around((const double(*)[4])t.ball + TUBE_STEPS * i, TUBE_STEPS + 1, t.stretch[i]);
+        t.stretch[i][3] = ball_around((const double(*)[4])t.ball + TUBE_STEPS * i, TUBE_STEPS + 1, t.stretch[i]);
     t.reach = ball_around((const double(*)[4])t.ball, t.count, t.centre);
     return t;
 }
@@ -50,8 +49,7 @@ void tube_free(tube *t)
 /* Ellipse with semi-axes r*flat along the axis of w and r across it, to first order. */
 static double flat_distance(double w, double rest, double r, double flat)
 {
-    double u = w / flat, k0 = sqrt(u * u + rest * rest) / r,
-           k1 = sqrt(u * u / (flat * flat) + rest * rest) / (r * r);
+    double u = w / flat, k0 = sqrt(u * u + rest * rest) / r, k1 = sqrt(u * u / (flat * flat) + rest * rest) / (r * r);
     return k1 < 1e-9 ? -r : k0 * (k0 - 1) / k1;
 }
 
@@ -84,10 +82,7 @@ static double distance_below(const tube *t, const double p[3], double limit)
     return best;
 }
 
-double tube_distance(const tube *t, const double p[3])
-{
-    return distance_below(t, p, HUGE_VAL);
-}
+double tube_distance(const tube *t, const double p[3]) { return distance_below(t, p, HUGE_VAL); }
 
 /* Farther than k from d, a blend leaves d as it is. */
 double tube_union(double d, const tube *t, const double p[3], double k)

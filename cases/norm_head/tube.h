@@ -1,17 +1,14 @@
 /* tube: a body swept along a smooth curve, round or flattened, its radius varying along the curve. */
 #pragma once
 
-enum {
-    TUBE_STEPS = 6
-}; /* pieces between two control points: 0.1 mm from the curve for the curves used here */
+enum { TUBE_STEPS = 6 }; /* pieces between two control points: 0.1 mm from the curve for the curves used here */
 
 typedef struct tube {
     int count;
     double (*ball)[4];       /* [count] x, y, z, radius along the curve */
     double centre[3], reach; /* ball that contains the tube */
-    double (
-        *stretch)[4]; /* [(count-1)/TUBE_STEPS] centre and radius of the ball around each TUBE_STEPS pieces */
-    double across[3], flat; /* the section is `flat` times wider along the unit vector across */
+    double (*stretch)[4];    /* [(count-1)/TUBE_STEPS] centre and radius of the ball around each TUBE_STEPS pieces */
+    double across[3], flat;  /* the section is `flat` times wider along the unit vector across */
 } tube;
 
 /* Catmull-Rom through control points of x, y, z, radius. Round. */

@@ -44,8 +44,7 @@ warp warp_through(const warp_pairs *p)
     for (int i = 0; i < p->count; i++) {
         const double *a = p->from + 3 * i;
         for (int j = 0; j < p->count; j++) m[n * i + j] = basis(a, p->from + 3 * j);
-        for (int k = 0; k < 4; k++)
-            m[n * i + p->count + k] = m[n * (p->count + k) + i] = k == 0 ? 1 : a[k - 1];
+        for (int k = 0; k < 4; k++) m[n * i + p->count + k] = m[n * (p->count + k) + i] = k == 0 ? 1 : a[k - 1];
         vec_sub(p->to + 3 * i, a, w.weight + 3 * i);
     }
     dense_solve(m, w.weight, n, 3);

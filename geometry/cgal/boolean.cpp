@@ -25,10 +25,7 @@ constexpr int shifts = 5;
 constexpr double shift_step_mm = 1e-4;
 constexpr double volume_tolerance = 1e-6;
 
-double volume(const mesh &m)
-{
-    return m.number_of_faces() ? PMP::volume(m) : 0;
-}
+double volume(const mesh &m) { return m.number_of_faces() ? PMP::volume(m) : 0; }
 
 // The wanted result and its complement; together they must account for both volumes.
 template <class Mesh> bool corefine(Mesh &a, Mesh &b, boolean_op op, Mesh &result, Mesh &other)
@@ -42,8 +39,7 @@ template <class Mesh> bool corefine(Mesh &a, Mesh &b, boolean_op op, Mesh &resul
     boolean_op check = op == BOOLEAN_INTERSECTION ? BOOLEAN_DIFFERENCE : BOOLEAN_INTERSECTION;
     out[slot(op)] = &result;
     out[slot(check)] = &other;
-    auto all = std::make_tuple(np::default_values(), np::default_values(), np::default_values(),
-                               np::default_values());
+    auto all = std::make_tuple(np::default_values(), np::default_values(), np::default_values(), np::default_values());
     std::array<bool, 4> done = PMP::corefine_and_compute_boolean_operations(
         a, b, out, np::throw_on_self_intersection(true), np::default_values(), all);
     return done[slot(op)] && done[slot(check)];
@@ -166,8 +162,8 @@ mesh combine(const mesh &a, const mesh &b, boolean_op op, boolean_report *report
 
 } // namespace
 
-extern "C" bool boolean_apply(const surface *a, const surface *b, boolean_op op, surface *out,
-                              boolean_report *report, err *e)
+extern "C" bool boolean_apply(const surface *a, const surface *b, boolean_op op, surface *out, boolean_report *report,
+                              err *e)
 {
     return guarded(e, "boolean", [&] {
         if (!surface_check(a, e)) return err_prefix(e, "first body");

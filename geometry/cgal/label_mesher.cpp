@@ -61,24 +61,25 @@ std::vector<seed> scan(const label_call &label, const label_mesher_params &p)
                     x[axis] = to;
                     int after = label.at(x[0], x[1], x[2]);
                     if (after == before) continue;
-                    auto key = std::make_tuple(int(std::floor(x[0] / cell)), int(std::floor(x[1] / cell)),
-                                               int(std::floor(x[2] / cell)), std::min(before, after),
-                                               std::max(before, after));
+                    auto key =
+                        std::make_tuple(int(std::floor(x[0] / cell)), int(std::floor(x[1] / cell)),
+                                        int(std::floor(x[2] / cell)), std::min(before, after), std::max(before, after));
                     if (taken.insert(key).second) {
                         double lo = from, hi = to, y[3] = {x[0], x[1], x[2]};
                         int far = after;
                         while (hi - lo > p.boundary_error_mm) {
                             y[axis] = (lo + hi) / 2;
                             int mid = label.at(y[0], y[1], y[2]);
-                            if (mid == before) lo = y[axis];
+                            if (mid == before)
+                                lo = y[axis];
                             else {
                                 hi = y[axis];
                                 far = mid;
                             }
                         }
                         y[axis] = (lo + hi) / 2;
-                        seeds.push_back({kernel::Point_3(y[0], y[1], y[2]), std::min(before, far),
-                                         std::max(before, far)});
+                        seeds.push_back(
+                            {kernel::Point_3(y[0], y[1], y[2]), std::min(before, far), std::max(before, far)});
                     }
                     before = after;
                 }
@@ -98,8 +99,8 @@ class seeded_domain : public base_domain {
         template <class Out> Out operator()(Out out, const int = 0) const
         {
             for (const seed &s : *domain->seeds)
-                *out++ = std::make_pair(s.point, domain->index_from_surface_patch_index(
-                                                     Surface_patch_index(s.low, s.high)));
+                *out++ =
+                    std::make_pair(s.point, domain->index_from_surface_patch_index(Surface_patch_index(s.low, s.high)));
             return out;
         }
     };
@@ -151,13 +152,11 @@ void copy_out(const complex_3 &c, tetmesh *out)
     *out = m;
 }
 
-bool run(label_function *label, size_function *size, void *context, const label_mesher_params *p, tetmesh *out,
-         err *e)
+bool run(label_function *label, size_function *size, void *context, const label_mesher_params *p, tetmesh *out, err *e)
 {
     double radius = 0;
     for (int k = 0; k < 3; k++) {
-        if (!(p->high[k] - p->low[k] > 1))
-            return err_set(e, ERR_GEOMETRY, "the box to mesh is empty along axis %d", k);
+        if (!(p->high[k] - p->low[k] > 1)) return err_set(e, ERR_GEOMETRY, "the box to mesh is empty along axis %d", k);
         radius = std::hypot(radius, (p->high[k] - p->low[k]) / 2);
     }
     label_call call{label, context};
@@ -223,7 +222,8 @@ surface label_mesher_surface(const tetmesh *m, int label)
     for (int32_t v = 0; v < m->vertex_count; v++) number[v] = number[v] ? vertices++ : -1;
     surface s = surface_new(vertices, triangles);
     for (int32_t v = 0; v < m->vertex_count; v++)
-        if (number[v] >= 0) vec_copy(m->xyz + 3 * static_cast<std::size_t>(v), s.xyz + 3 * static_cast<std::size_t>(number[v]));
+        if (number[v] >= 0)
+            vec_copy(m->xyz + 3 * static_cast<std::size_t>(v), s.xyz + 3 * static_cast<std::size_t>(number[v]));
     std::size_t t = 0;
     for (std::size_t i = 0; i < count; i++) {
         if (!on_boundary(i)) continue;

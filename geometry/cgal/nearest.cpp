@@ -62,8 +62,8 @@ double nearest_point(const nearest *n, const double p[3], double at[3], int32_t 
 double nearest_point_onward(const nearest *n, const double p[3], double at[3], int32_t *number)
 {
     const point here(p[0], p[1], p[2]);
-    auto found = n->boxes.closest_point_and_primitive(
-        here, {point(at[0], at[1], at[2]), n->triangles.cbegin() + *number});
+    auto found =
+        n->boxes.closest_point_and_primitive(here, {point(at[0], at[1], at[2]), n->triangles.cbegin() + *number});
     for (int c = 0; c < 3; c++) at[c] = found.first[c];
     *number = static_cast<int32_t>(found.second - n->triangles.cbegin());
     return std::sqrt(CGAL::squared_distance(found.first, here));

@@ -59,8 +59,7 @@ mesh manifold_mesh(const surface &in, repair_report &r)
     r.degenerate_triangles = static_cast<int32_t>(triangles.end() - first);
     triangles.erase(first, triangles.end());
     // Two opposite copies of a triangle enclose nothing; both of any further copies are one too many.
-    r.duplicate_triangles =
-        static_cast<int32_t>(PMP::merge_duplicate_polygons_in_polygon_soup(points, triangles));
+    r.duplicate_triangles = static_cast<int32_t>(PMP::merge_duplicate_polygons_in_polygon_soup(points, triangles));
     PMP::remove_isolated_points_in_polygon_soup(points, triangles);
     PMP::orient_polygon_soup(points, triangles); // doubles the vertices of non-manifold edges
     mesh m;
@@ -212,8 +211,7 @@ int32_t remove_intersections(mesh &m, repair_report &r)
 void measure_deviation(const mesh &before, const mesh &after, repair_report &r)
 {
     using primitive = CGAL::AABB_face_graph_triangle_primitive<mesh>;
-    CGAL::AABB_tree<CGAL::AABB_traits<kernel, primitive>> tree(faces(after).first, faces(after).second,
-                                                               after);
+    CGAL::AABB_tree<CGAL::AABB_traits<kernel, primitive>> tree(faces(after).first, faces(after).second, after);
     tree.accelerate_distance_queries();
     for (auto v : before.vertices()) {
         double d = std::sqrt(tree.squared_distance(before.point(v)));
@@ -222,10 +220,7 @@ void measure_deviation(const mesh &before, const mesh &after, repair_report &r)
     }
 }
 
-bool encloses(const mesh &m)
-{
-    return CGAL::is_closed(m) && PMP::does_bound_a_volume(m);
-}
+bool encloses(const mesh &m) { return CGAL::is_closed(m) && PMP::does_bound_a_volume(m); }
 
 mesh wrapped(const surface &in, double alpha_mm, double offset_mm)
 {
@@ -245,15 +240,13 @@ extern "C" repair_params repair_params_default(void)
     return {.min_component_share = 1e-3, .wrap_alpha_mm = 1, .wrap_offset_mm = 0.05};
 }
 
-extern "C" bool repair_solid(const surface *in, const repair_params *p, surface *out, repair_report *report,
-                             err *e)
+extern "C" bool repair_solid(const surface *in, const repair_params *p, surface *out, repair_report *report, err *e)
 {
     return guarded(e, "repair", [&] {
         if (!surface_check(in, e)) return false;
         if (!(p->min_component_share >= 0 && p->min_component_share < 1) || !(p->wrap_alpha_mm > 0) ||
             !(p->wrap_offset_mm > 0))
-            return err_set(e, ERR_INPUT,
-                           "repair: component share %g, wrap alpha %g mm, offset %g mm are not usable",
+            return err_set(e, ERR_INPUT, "repair: component share %g, wrap alpha %g mm, offset %g mm are not usable",
                            p->min_component_share, p->wrap_alpha_mm, p->wrap_offset_mm);
         repair_report r = {};
         mesh m = manifold_mesh(*in, r);
@@ -294,8 +287,7 @@ extern "C" bool repair_wrap(const surface *in, double alpha_mm, double offset_mm
     return guarded(e, "wrap", [&] {
         if (!surface_check(in, e)) return false;
         if (!(alpha_mm > 0) || !(offset_mm > 0))
-            return err_set(e, ERR_INPUT, "wrap: alpha %g mm and offset %g mm must be above 0", alpha_mm,
-                           offset_mm);
+            return err_set(e, ERR_INPUT, "wrap: alpha %g mm and offset %g mm must be above 0", alpha_mm, offset_mm);
         mesh m = wrapped(*in, alpha_mm, offset_mm);
         *out = surface_from_mesh(m);
         return true;

@@ -8,8 +8,8 @@
 #include <algorithm>
 
 namespace {
-using box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int32_t,
-                                                      CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+using box =
+    CGAL::Box_intersection_d::Box_with_info_d<double, 3, int32_t, CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
 struct limit_reached {};
 
@@ -20,8 +20,7 @@ struct pair_test {
 
     bool operator()(int32_t t, int32_t u) const
     {
-        const int32_t *a = s->tri + 3 * static_cast<std::size_t>(t),
-                      *b = s->tri + 3 * static_cast<std::size_t>(u);
+        const int32_t *a = s->tri + 3 * static_cast<std::size_t>(t), *b = s->tri + 3 * static_cast<std::size_t>(u);
         int shared = 0, i = 0, j = 0; // i, j: corners of the last shared vertex
         bool in_a[3] = {}, in_b[3] = {};
         for (int k = 0; k < 3; k++)
@@ -66,8 +65,7 @@ extern "C" bool repair_count_self_intersections(const surface *s, int32_t limit,
                 boxes.emplace_back(p.bbox() + q.bbox() + r.bbox(), t);
         }
         try {
-            std::vector<const box *>
-                order; // boxes are told apart by their address, so they must stay in place
+            std::vector<const box *> order; // boxes are told apart by their address, so they must stay in place
             for (const box &b : boxes) order.push_back(&b);
             if (found < most)
                 CGAL::box_self_intersection_d(order.begin(), order.end(), [&](const box *a, const box *b) {

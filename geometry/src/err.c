@@ -31,8 +31,10 @@ bool err_at(err *e, err_code code, const char *path, int line, const char *field
     va_end(args);
     char place[640] = "";
     int n = 0;
-    if (path && line > 0) n = snprintf(place, sizeof place, "%s:%d: ", path, line);
-    else if (path) n = snprintf(place, sizeof place, "%s: ", path);
+    if (path && line > 0)
+        n = snprintf(place, sizeof place, "%s:%d: ", path, line);
+    else if (path)
+        n = snprintf(place, sizeof place, "%s: ", path);
     if (field && n >= 0 && (size_t)n < sizeof place) snprintf(place + n, sizeof place - (size_t)n, "%s: ", field);
     return err_set(e, code, "%s%s", place, text);
 }

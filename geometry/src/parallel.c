@@ -21,6 +21,5 @@ void parallel_for(int64_t count, int64_t grain, parallel_body *body, void *conte
     if (grain < 1) grain = 1;
     int64_t blocks = (count + grain - 1) / grain;
 #pragma omp parallel for schedule(dynamic) num_threads(parallel_threads()) if (blocks > 1)
-    for (int64_t b = 0; b < blocks; b++)
-        body(b * grain, (b + 1) * grain < count ? (b + 1) * grain : count, context);
+    for (int64_t b = 0; b < blocks; b++) body(b * grain, (b + 1) * grain < count ? (b + 1) * grain : count, context);
 }

@@ -83,8 +83,8 @@ bool rigid_from_matrix(const double m[16], rigid *out, err *e)
     for (int i = 0; i < 16; i++)
         if (!isfinite(m[i])) return err_set(e, ERR_INPUT, "matrix entry %d is not a finite number", i);
     if (fabs(m[12]) > tol || fabs(m[13]) > tol || fabs(m[14]) > tol || fabs(m[15] - 1) > tol)
-        return err_set(e, ERR_INPUT, "the last row of the matrix must be 0 0 0 1, got %g %g %g %g", m[12], m[13],
-                       m[14], m[15]);
+        return err_set(e, ERR_INPUT, "the last row of the matrix must be 0 0 0 1, got %g %g %g %g", m[12], m[13], m[14],
+                       m[15]);
     double r[3][3];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) r[i][j] = m[4 * i + j];
@@ -92,8 +92,8 @@ bool rigid_from_matrix(const double m[16], rigid *out, err *e)
         for (int j = i; j < 3; j++) {
             double d = vec_dot(r[i], r[j]), want = i == j ? 1 : 0;
             if (fabs(d - want) > tol)
-                return err_set(e, ERR_INPUT,
-                               "the matrix is not rigid: rows %d and %d have product %.9g, must be %g", i, j, d, want);
+                return err_set(e, ERR_INPUT, "the matrix is not rigid: rows %d and %d have product %.9g, must be %g", i,
+                               j, d, want);
         }
     /* Gram-Schmidt; rows are orthonormal to 1e-6 already */
     vec_normalize(r[0]);

@@ -89,8 +89,7 @@ double surface_volume(const surface *s)
     const double *origin = s->xyz; /* near the surface: less cancellation */
     for (int32_t t = 0; t < s->triangle_count; t++) {
         const int32_t *v = s->tri + 3 * (size_t)t;
-        sum += vec_six_volume(origin, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1],
-                              s->xyz + 3 * (size_t)v[2]);
+        sum += vec_six_volume(origin, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[2]);
     }
     return sum / 6;
 }
@@ -194,8 +193,10 @@ int32_t surface_components(const surface *s, int32_t **component)
     for (int32_t t = 0; t < s->triangle_count; t++)
         for (int k = 1; k < 3; k++) {
             int32_t a = find_root(parent, s->tri[3 * (size_t)t]), b = find_root(parent, s->tri[3 * (size_t)t + k]);
-            if (a < b) parent[b] = a;
-            else parent[a] = b;
+            if (a < b)
+                parent[b] = a;
+            else
+                parent[a] = b;
         }
     int32_t count = 0;
     *component = NEW_ARRAY(int32_t, s->triangle_count);

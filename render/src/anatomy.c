@@ -40,8 +40,7 @@ static bool stage_open(stage *g, int capacity, err *e)
     return studio_open(&g->s, e);
 }
 
-static bool stage_add(stage *g, const surface *from, material kind, const double rgb[3], const rigid *move,
-                      err *e)
+static bool stage_add(stage *g, const surface *from, material kind, const double rgb[3], const rigid *move, err *e)
 {
     model_params p = kind == MATERIAL_SKIN ? model_params_skin() : model_params_bone();
     if (!model_create(g->s, from, &p, &g->models[g->count], e)) return false;
@@ -124,15 +123,14 @@ static bool plate_tile(const stage *g, const plate *p, int side, image *out, err
     if (ok) {
         double size = fmax(9, im.height / 45.0), scale = camera_scale(&c, im.height), widest = 0;
         label_sides(marker, 0, 0, im.width, im.height, size, &c, p->frame);
-        label_scale_bar(marker, 0.9 * size, im.height - size, scale, label_scale_length(scale, im.width),
-                        0.8 * size);
+        label_scale_bar(marker, 0.9 * size, im.height - size, scale, label_scale_length(scale, im.width), 0.8 * size);
         label_points(marker, &im, 0.62 * size, &c, p->points, p->point_count, seen);
         for (int i = 0; side && i < p->entry_count; i++)
             widest = fmax(widest, pen_text_width(marker, 0.75 * size, false, p->entries[i].text));
         if (side)
             label_legend(marker, im.width - widest - 2.3 * size,
-                         im.height - p->entry_count * 1.55 * 0.75 * size - 0.6 * size, 0.75 * size,
-                         p->entries, p->entry_count);
+                         im.height - p->entry_count * 1.55 * 0.75 * size - 0.6 * size, 0.75 * size, p->entries,
+                         p->entry_count);
         pen_close(&marker);
         *out = im;
     } else
@@ -146,9 +144,9 @@ static bool plate_write(const stage *g, const plate *p, const char *path, err *e
 {
     image tile[2] = {{0}, {0}}, whole = {0};
     compose_params params = sheet_params(p);
-    bool ok = plate_tile(g, p, 0, &tile[0], e) && plate_tile(g, p, 1, &tile[1], e) &&
-              compose_sheet((compose_tile[2]){{&tile[0], p->caption[0]}, {&tile[1], p->caption[1]}}, 2,
-                            &params, &whole, e);
+    bool ok =
+        plate_tile(g, p, 0, &tile[0], e) && plate_tile(g, p, 1, &tile[1], e) &&
+        compose_sheet((compose_tile[2]){{&tile[0], p->caption[0]}, {&tile[1], p->caption[1]}}, 2, &params, &whole, e);
     png_note notes[2] = {{"Software", "gnathos " GNATHOS_VERSION}, {"Renderer", studio_description(g->s)}};
     ok = ok && png_file_write(&whole, notes, 2, path, e);
     image_free(&tile[0]);
@@ -194,18 +192,17 @@ bool anatomy_exploded_write(const anatomy_piece *pieces, int count, const stroke
 
 static bool soft_tissue(const char *label)
 {
-    static const char *const names[] = {"Pn",      "Sn",   "Ls",   "Stm",  "Stms", "Stmi",
-                                        "Li_soft", "C",    "Al_L", "Al_R", "Ch_L", "Ch_R",
-                                        "En_L",    "En_R", "Ex_L", "Ex_R", "T_L",  "T_R"};
+    static const char *const names[] = {"Pn",   "Sn",   "Ls",   "Stm",  "Stms", "Stmi", "Li_soft", "C",   "Al_L",
+                                        "Al_R", "Ch_L", "Ch_R", "En_L", "En_R", "Ex_L", "Ex_R",    "T_L", "T_R"};
     if (strchr(label, '\'')) return true;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(label, names[i])) return true;
     return false;
 }
 
-bool anatomy_landmarks_write(const surface *skin, const subject_part *parts, int part_count,
-                             const landmarks *points, const head_frame *frame, const char *text,
-                             const gallery_style *style, int width, int height, const char *path, err *e)
+bool anatomy_landmarks_write(const surface *skin, const subject_part *parts, int part_count, const landmarks *points,
+                             const head_frame *frame, const char *text, const gallery_style *style, int width,
+                             int height, const char *path, err *e)
 {
     static const double red[3] = {0.80, 0.22, 0.20}, blue[3] = {0.13, 0.38, 0.70};
     if (!skin && part_count < 1) return err_set(e, ERR_USAGE, "%s: landmarks on nothing", path);

@@ -17,7 +17,7 @@ typedef struct bake {
     const layer *layers;
     int layer_count, directions;
     double centre[3], radius; /* of a sphere around all layers */
-    uint8_t **hidden; /* per layer [directions*vertex_count]: share of the light that is hidden, of 255 */
+    uint8_t **hidden;         /* per layer [directions*vertex_count]: share of the light that is hidden, of 255 */
 } bake;
 
 typedef struct light_map { /* depth of the first surface that light from one direction meets */
@@ -38,8 +38,7 @@ static placing place_layer(const bake *b, const light_map *m, const rigid *move)
     vec_sub(move->t, b->centre, from);
     placing out;
     for (int r = 0; r < 3; r++) {
-        double local[3], scale = r < 2 ? MAP_SIDE / (2 * b->radius) : 1,
-                         shift = r < 2 ? MAP_SIDE / 2.0 - 0.5 : 0;
+        double local[3], scale = r < 2 ? MAP_SIDE / (2 * b->radius) : 1, shift = r < 2 ? MAP_SIDE / 2.0 - 0.5 : 0;
         rigid_rotate(&back, axis[r], local);
         for (int c = 0; c < 3; c++) out.row[r][c] = (float)(scale * local[c]);
         out.row[r][3] = (float)(scale * vec_dot(axis[r], from) + shift);
@@ -49,8 +48,7 @@ static placing place_layer(const bake *b, const light_map *m, const rigid *move)
 
 static void place(const placing *k, const float *p, float out[3])
 {
-    for (int r = 0; r < 3; r++)
-        out[r] = k->row[r][0] * p[0] + k->row[r][1] * p[1] + k->row[r][2] * p[2] + k->row[r][3];
+    for (int r = 0; r < 3; r++) out[r] = k->row[r][0] * p[0] + k->row[r][1] * p[1] + k->row[r][2] * p[2] + k->row[r][3];
 }
 
 static float least(float a, float b, float c)
@@ -63,8 +61,7 @@ static float least(float a, float b, float c)
  * do not. The result is the largest height of all triangles: their order does not matter. */
 static void draw_triangle(float *near, const float *a, const float *b, const float *c)
 {
-    float abx = b[0] - a[0], aby = b[1] - a[1], acx = c[0] - a[0], acy = c[1] - a[1],
-          area = abx * acy - aby * acx;
+    float abx = b[0] - a[0], aby = b[1] - a[1], acx = c[0] - a[0], acy = c[1] - a[1], area = abx * acy - aby * acx;
     if (!(area > 0)) return;
     float left = least(a[0], b[0], c[0]), low = least(a[1], b[1], c[1]);
     int x0 = (int)left, y0 = (int)low;

@@ -56,8 +56,7 @@ camera camera_orbit(double azimuth_deg, double elevation_deg, double roll_deg, c
     return c;
 }
 
-bool camera_custom(const double toward_viewer[3], const double up[3], const double target[3], camera *out,
-                   err *e)
+bool camera_custom(const double toward_viewer[3], const double up[3], const double target[3], camera *out, err *e)
 {
     camera c = {.half_height_mm = 100, .depth_mm = 1000};
     vec_copy(target, c.target);
@@ -67,8 +66,7 @@ bool camera_custom(const double toward_viewer[3], const double up[3], const doub
     vec_normalize(u);
     vec_cross(u, c.back, c.right);
     if (!(vec_normalize(c.right) > 1e-6))
-        return err_set(e, ERR_INPUT,
-                       "the up vector of the view is zero or parallel to the viewing direction");
+        return err_set(e, ERR_INPUT, "the up vector of the view is zero or parallel to the viewing direction");
     vec_cross(c.back, c.right, c.up);
     *out = c;
     return true;
@@ -98,8 +96,7 @@ void camera_fit(camera *c, double radius_mm, int width, int height, double margi
     c->depth_mm = 2 * radius_mm;
 }
 
-void camera_fit_surfaces(camera *c, const surface *const *surfaces, int count, int width, int height,
-                         double margin)
+void camera_fit_surfaces(camera *c, const surface *const *surfaces, int count, int width, int height, double margin)
 {
     const double *axis[3] = {c->right, c->up, c->back};
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -130,13 +127,9 @@ void camera_set_perspective(camera *c, double angle_rad)
     c->depth_mm = fmin(c->depth_mm, 0.95 * c->eye_mm);
 }
 
-double camera_scale(const camera *c, int height)
-{
-    return height / (2 * c->half_height_mm);
-}
+double camera_scale(const camera *c, int height) { return height / (2 * c->half_height_mm); }
 
-void camera_project(const camera *c, int width, int height, const double p[3], double *x, double *y,
-                    double *near_mm)
+void camera_project(const camera *c, int width, int height, const double p[3], double *x, double *y, double *near_mm)
 {
     double d[3];
     vec_sub(p, c->target, d);

@@ -18,8 +18,7 @@ bool canvas_open(const gl *g, int width, int height, canvas *out, err *e)
     g->BindRenderbuffer(GL_RENDERBUFFER, c.many_colour);
     g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_RGBA16F, width, height);
     g->BindRenderbuffer(GL_RENDERBUFFER, c.many_depth);
-    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_DEPTH_COMPONENT32F, width,
-                                      height);
+    g->RenderbufferStorageMultisample(GL_RENDERBUFFER, SAMPLES_PER_PIXEL, GL_DEPTH_COMPONENT32F, width, height);
     g->BindRenderbuffer(GL_RENDERBUFFER, c.one_depth);
     g->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width, height);
     g->BindRenderbuffer(GL_RENDERBUFFER, c.final_colour);
@@ -42,9 +41,8 @@ bool canvas_open(const gl *g, int width, int height, canvas *out, err *e)
     g->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, c.many_depth);
     ok &= g->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     *out = c;
-    return ok || err_set(e, ERR_RESOURCE,
-                         "no picture: a frame buffer of %d x %d pixels with %d samples cannot be made", width,
-                         height, SAMPLES_PER_PIXEL);
+    return ok || err_set(e, ERR_RESOURCE, "no picture: a frame buffer of %d x %d pixels with %d samples cannot be made",
+                         width, height, SAMPLES_PER_PIXEL);
 }
 
 void canvas_close(const gl *g, canvas *c)

@@ -10,9 +10,9 @@ static const double ink[3] = {0.16, 0.19, 0.23}, paper[3] = {1, 1, 1}, grey[3] =
 static const double legend_share = 0.40; /* of the width */
 
 struct layout {
-    double size;                      /* of the text */
-    double left, top, width, height;  /* of the plane */
-    double per_x, per_y;              /* pixels per node */
+    double size;                     /* of the text */
+    double left, top, width, height; /* of the plane */
+    double per_x, per_y;             /* pixels per node */
     double legend_x, legend_width;
 };
 
@@ -77,7 +77,8 @@ static int64_t find_patch(const chart *c, int64_t start, uint8_t *taken, int *de
         int i = (int)(at % nx), k = (int)(at / nx);
         for (int s = 0; s < 4; s++) {
             int p = i + (s == 0) - (s == 1), q = k + (s == 2) - (s == 3);
-            if (p < 0 || q < 0 || p >= nx || q >= ny || taken[chart_node(c, p, q)] || c->kind[chart_node(c, p, q)] != c->kind[start])
+            if (p < 0 || q < 0 || p >= nx || q >= ny || taken[chart_node(c, p, q)] ||
+                c->kind[chart_node(c, p, q)] != c->kind[start])
                 continue;
             taken[chart_node(c, p, q)] = 1;
             deep[chart_node(c, p, q)] = 1 << 20;
@@ -111,7 +112,7 @@ static void draw_letters(const chart *c, const struct layout *l, pen *p)
     int64_t total = (int64_t)c->x.count * c->y.count, count;
     uint8_t *taken = NEW_ARRAY(uint8_t, total);
     int *deep = NEW_ARRAY(int, total), written = 0;
-    double (*at)[2] = mem_alloc((size_t)total, sizeof *at);
+    double(*at)[2] = mem_alloc((size_t)total, sizeof *at);
     for (int64_t start = 0; start < total; start++) {
         if (taken[start]) continue;
         int64_t best = find_patch(c, start, taken, deep, &count);
@@ -206,7 +207,8 @@ static struct layout lay_out(const chart *c, int width, bool same_scale)
     l.height = l.width;
     if (same_scale) {
         double x = c->x.step * (c->x.count - 1), y = c->y.step * (c->y.count - 1);
-        if (y <= 1.25 * x) l.height = floor(l.width * y / x);
+        if (y <= 1.25 * x)
+            l.height = floor(l.width * y / x);
         else {
             l.height = floor(1.25 * l.width);
             l.width = floor(l.height * x / y);
@@ -251,7 +253,9 @@ bool chart_draw(const chart *c, int width, bool same_scale, image *out, err *e)
         pen_close(&p);
         image_free(&blank);
     }
-    if (ok) *out = im;
-    else image_free(&im);
+    if (ok)
+        *out = im;
+    else
+        image_free(&im);
     return ok;
 }

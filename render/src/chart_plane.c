@@ -143,4 +143,3 @@ void chart_plane_swatch(const chart_kind *kind, int x, int y, int side, double s
     image_free(&half);
     image_free(&fine);
 }
-

@@ -19,10 +19,7 @@ static void viridis(double t, double rgb[3])
     }
 }
 
-double colormap_linear(double srgb)
-{
-    return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4);
-}
+double colormap_linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4); }
 double colormap_encode(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
@@ -32,9 +29,8 @@ static const double white_d65[3] = {0.95047, 1.0, 1.08883};
 
 static void rgb_to_lab(const double rgb[3], double lab[3])
 {
-    static const double m[3][3] = {{0.4124564, 0.3575761, 0.1804375},
-                                   {0.2126729, 0.7151522, 0.0721750},
-                                   {0.0193339, 0.1191920, 0.9503041}};
+    static const double m[3][3] = {
+        {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
     double f[3];
     for (int r = 0; r < 3; r++) {
         double x = 0;
@@ -49,9 +45,8 @@ static void rgb_to_lab(const double rgb[3], double lab[3])
 
 static void lab_to_rgb(const double lab[3], double rgb[3])
 {
-    static const double m[3][3] = {{3.2404542, -1.5371385, -0.4985314},
-                                   {-0.9692660, 1.8760108, 0.0415560},
-                                   {0.0556434, -0.2040259, 1.0572252}};
+    static const double m[3][3] = {
+        {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
     double y = (lab[0] + 16) / 116, f[3] = {y + lab[1] / 500, y, y - lab[2] / 200}, xyz[3];
     for (int k = 0; k < 3; k++)
         xyz[k] = white_d65[k] * (f[k] > 0.206893 ? f[k] * f[k] * f[k] : (f[k] - 16.0 / 116) / 7.787);
@@ -81,9 +76,8 @@ static double adjusted_hue(const double saturated[3], double grey_magnitude)
 
 static void coolwarm(double t, double rgb[3])
 {
-    static const double ends[2][3] = {{59.0 / 255, 76.0 / 255, 192.0 / 255},
-                                      {180.0 / 255, 4.0 / 255, 38.0 / 255}};
-    const double middle = 88; /* magnitude of the light grey between two distant hues */
+    static const double ends[2][3] = {{59.0 / 255, 76.0 / 255, 192.0 / 255}, {180.0 / 255, 4.0 / 255, 38.0 / 255}};
+    const double middle = 88;                                 /* magnitude of the light grey between two distant hues */
     double lab[3], msh[3], mix = t < 0.5 ? 2 * t : 2 - 2 * t; /* 0 at the coloured end, 1 at grey */
     rgb_to_lab(ends[t < 0.5 ? 0 : 1], lab);
     lab_to_msh(lab, msh);
@@ -105,8 +99,7 @@ const uint8_t *colormap_table(colormap map)
                 viridis(t, rgb);
             else
                 coolwarm(t, rgb);
-            for (int k = 0; k < 3; k++)
-                table[map][3 * i + k] = (uint8_t)(255 * fmin(1, fmax(0, rgb[k])) + 0.5);
+            for (int k = 0; k < 3; k++) table[map][3 * i + k] = (uint8_t)(255 * fmin(1, fmax(0, rgb[k])) + 0.5);
         }
         made[map] = 1;
     }

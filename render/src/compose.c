@@ -11,10 +11,7 @@ compose_params compose_params_default(void)
     return (compose_params){.columns = 2, .gap = 6, .font_size = 22, .fonts = label_fonts_default()};
 }
 
-int compose_title_height(const compose_params *params)
-{
-    return params->title ? (int)(2.4 * params->font_size) : 0;
-}
+int compose_title_height(const compose_params *params) { return params->title ? (int)(2.4 * params->font_size) : 0; }
 
 void compose_tile_size(int count, const compose_params *params, int *width, int *height)
 {
@@ -29,21 +26,20 @@ bool compose_sheet(const compose_tile *tiles, int count, const compose_params *p
     int w = tiles[0].picture->width, h = tiles[0].picture->height, title = compose_title_height(params);
     for (int i = 1; i < count; i++)
         if (tiles[i].picture->width != w || tiles[i].picture->height != h)
-            return err_set(e, ERR_USAGE, "pictures of different sizes on one sheet (%d x %d and %d x %d)", w,
-                           h, tiles[i].picture->width, tiles[i].picture->height);
+            return err_set(e, ERR_USAGE, "pictures of different sizes on one sheet (%d x %d and %d x %d)", w, h,
+                           tiles[i].picture->width, tiles[i].picture->height);
     int columns = count < params->columns ? count : params->columns, rows = (count + columns - 1) / columns;
     int64_t width = (int64_t)columns * (w + params->gap) - params->gap;
     int64_t height = title + (int64_t)rows * (h + params->gap) - params->gap;
     if (params->sheet_width) width = params->sheet_width;
     if (params->sheet_height) height = params->sheet_height;
     if (width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX)
-        return err_set(e, ERR_USAGE, "a sheet of %lld x %lld pixels: at most %d along a side",
-                       (long long)width, (long long)height, IMAGE_SIZE_MAX);
+        return err_set(e, ERR_USAGE, "a sheet of %lld x %lld pixels: at most %d along a side", (long long)width,
+                       (long long)height, IMAGE_SIZE_MAX);
     image sheet = image_new((int)width, (int)height);
     image_fill(&sheet, gap_rgb);
     for (int i = 0; i < count; i++)
-        image_paste(&sheet, tiles[i].picture, i % columns * (w + params->gap),
-                    title + i / columns * (h + params->gap));
+        image_paste(&sheet, tiles[i].picture, i % columns * (w + params->gap), title + i / columns * (h + params->gap));
     pen *p = NULL;
     if (!pen_open(&sheet, &params->fonts, &p, e)) {
         image_free(&sheet);
@@ -53,8 +49,8 @@ bool compose_sheet(const compose_tile *tiles, int count, const compose_params *p
     for (int i = 0; i < count; i++)
         if (tiles[i].caption)
             pen_text(p, i % columns * (w + params->gap) + 0.9 * size,
-                     title + i / columns * (h + params->gap) + 1.6 * size, LABEL_LEFT, size, true,
-                     caption_ink, tiles[i].caption);
+                     title + i / columns * (h + params->gap) + 1.6 * size, LABEL_LEFT, size, true, caption_ink,
+                     tiles[i].caption);
     if (params->title) {
         pen_box(p, 0, 0, sheet.width, title, strip_rgb, 1);
         pen_text(p, 0.9 * size, 0.66 * title, LABEL_LEFT, 1.15 * size, true, strip_ink, params->title);

@@ -40,8 +40,7 @@ bool backend_open(backend **out, err *e)
     b->context = OSMesaCreateContextAttribs(attributes, NULL);
     if (!b->context) {
         free(b);
-        return err_set(e, ERR_RESOURCE,
-                       "no pictures: OSMesa gives no OpenGL 3.3 core context (is libosmesa6 whole?)");
+        return err_set(e, ERR_RESOURCE, "no pictures: OSMesa gives no OpenGL 3.3 core context (is libosmesa6 whole?)");
     }
     *out = b;
     return true;

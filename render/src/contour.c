@@ -3,10 +3,8 @@
 #include "geometry/vec.h"
 #include <stdio.h>
 
-static const double ink[3] = {0.16, 0.19, 0.23}, faint[3] = {0.45, 0.49, 0.54},
-                    paper[3] = {0.985, 0.988, 0.992};
-static const double grid_rgb[2][3] = {{0.91, 0.925, 0.94}, {0.80, 0.835, 0.87}},
-                    axis_rgb[3] = {0.42, 0.50, 0.58};
+static const double ink[3] = {0.16, 0.19, 0.23}, faint[3] = {0.45, 0.49, 0.54}, paper[3] = {0.985, 0.988, 0.992};
+static const double grid_rgb[2][3] = {{0.91, 0.925, 0.94}, {0.80, 0.835, 0.87}}, axis_rgb[3] = {0.42, 0.50, 0.58};
 static const char *const shown[] = {"G'",   "N'",      "Pn", "Sn",  "A'",  "Ls",  "Stm", "Stms",
                                     "Stmi", "Li_soft", "B'", "Pg'", "Gn'", "Me'", "C",   NULL};
 static const char *const framed[] = {"N'", "Pn", "Sn", "Pg'", "Me'", "G'", NULL};
@@ -43,8 +41,8 @@ static void draw_grid(const profile *f, const double zero[3])
             }
     }
     if (f->g->style->labels)
-        pen_text(f->p, zx - 0.4 * f->size, f->height - 2.0 * f->size, LABEL_RIGHT, 0.75 * f->size, false,
-                 axis_rgb, "vertical through Sn");
+        pen_text(f->p, zx - 0.4 * f->size, f->height - 2.0 * f->size, LABEL_RIGHT, 0.75 * f->size, false, axis_rgb,
+                 "vertical through Sn");
 }
 
 static void draw_points(const profile *f)
@@ -71,8 +69,7 @@ static void draw_table(const profile *f, pen *p, double x, double right)
            column[3] = {right - 9.2 * size, right - 4.7 * size, right - 0.6 * size};
     static const char *const head[] = {"forward", "up", "total"};
     pen_text(p, x, y, LABEL_LEFT, size, true, ink, "Skin moves by, mm");
-    for (int k = 0; k < 3; k++)
-        pen_text(p, column[k], y + 1.9 * size, LABEL_RIGHT, 0.85 * size, false, faint, head[k]);
+    for (int k = 0; k < 3; k++) pen_text(p, column[k], y + 1.9 * size, LABEL_RIGHT, 0.85 * size, false, faint, head[k]);
     y += 2.4 * size;
     pen_line(p, x, y, right, y, 1, grid_rgb[1]);
     for (int i = 0; shown[i]; i++) {
@@ -93,8 +90,7 @@ static void draw_table(const profile *f, pen *p, double x, double right)
     static const char *const note[] = {"Curves: the skin where the midsagittal",
                                        "plane cuts it. Grid: 5 and 10 mm from",
                                        "subnasale before, in the Frankfort frame."};
-    for (int i = 0; i < 3; i++)
-        pen_text(p, x, y += 1.3 * size, LABEL_LEFT, 0.8 * size, false, faint, note[i]);
+    for (int i = 0; i < 3; i++) pen_text(p, x, y += 1.3 * size, LABEL_LEFT, 0.8 * size, false, faint, note[i]);
 }
 
 bool contour_draw(gallery *g, int width, int height, image *out, err *e)

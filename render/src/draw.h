@@ -13,8 +13,7 @@ void set_move(const gl *g, GLuint program, const rigid *a);
 GLuint load_floats(const gl *g, const float *values, size_t count); /* a buffer for one picture */
 
 void draw_opaque_layers(studio *s, const picture *p, int width, int height);
-void draw_clear_layers(studio *s, const picture *p, int width,
-                       int height); /* in their order, after all else */
+void draw_clear_layers(studio *s, const picture *p, int width, int height); /* in their order, after all else */
 /* Marks and strokes that are hidden by layers, or those on top. */
 void draw_extras(studio *s, const picture *p, int width, int height, bool on_top);
 /* Which marks can be seen: nothing lies more than its own lift in front. Reads the depth of what is drawn. */

@@ -122,10 +122,7 @@ static void draw_layer(studio *s, const layer *l, const camera *c)
     unload_layer(g, &x);
 }
 
-static void color_writes(const gl *g, bool on)
-{
-    g->ColorMask(on, on, on, on);
-}
+static void color_writes(const gl *g, bool on) { g->ColorMask(on, on, on, on); }
 
 static void set_camera(studio *s, const picture *p, int width, int height)
 {

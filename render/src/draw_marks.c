@@ -23,8 +23,7 @@ static float *ribbon(const stroke *k, const camera *c, int pieces)
         vec_scale(side, k->width_mm / 2, side);
         static const int end[6] = {0, 1, 1, 0, 1, 0}, sign[6] = {-1, -1, 1, -1, 1, 1};
         for (int q = 0; q < 6; q++)
-            for (int d = 0; d < 3; d++)
-                out[18 * i + 3 * q + d] = (float)((end[q] ? b : a)[d] + sign[q] * side[d]);
+            for (int d = 0; d < 3; d++) out[18 * i + 3 * q + d] = (float)((end[q] ? b : a)[d] + sign[q] * side[d]);
     }
     return out;
 }
@@ -44,8 +43,8 @@ static void draw_loose(const gl *g, GLenum kind, const float *xyz, int count)
     g->DeleteBuffers(1, &buffer);
 }
 
-static void draw_balls(studio *s, const camera *c, int width, int height, const float *xyz, int count,
-                       double radius_mm, const double rgb[3], double lift_mm, bool flat)
+static void draw_balls(studio *s, const camera *c, int width, int height, const float *xyz, int count, double radius_mm,
+                       const double rgb[3], double lift_mm, bool flat)
 {
     const gl *g = &s->gl;
     float clip[16];
@@ -72,8 +71,7 @@ void draw_extras(studio *s, const picture *p, int width, int height, bool on_top
         const stroke *k = p->strokes + i;
         int pieces = k->closed ? k->count : k->count - 1;
         if (k->on_top != on_top || pieces < 1) continue;
-        float clip[16], *points = ribbon(k, &p->view, pieces),
-                        *joint = NEW_ARRAY(float, 3 * (size_t)k->count);
+        float clip[16], *points = ribbon(k, &p->view, pieces), *joint = NEW_ARRAY(float, 3 * (size_t)k->count);
         clip_matrix(&p->view, width, height, stroke_lift_mm, clip);
         rigid stay = rigid_identity();
         g->UseProgram(s->ribbon);
@@ -82,8 +80,7 @@ void draw_extras(studio *s, const picture *p, int width, int height, bool on_top
         set_rgb(g, s->ribbon, "colour", k->rgb, true);
         draw_loose(g, GL_TRIANGLES, points, 6 * pieces);
         for (int v = 0; v < 3 * k->count; v++) joint[v] = (float)k->xyz[v];
-        draw_balls(s, &p->view, width, height, joint, k->count, k->width_mm / 2, k->rgb, stroke_lift_mm,
-                   true);
+        draw_balls(s, &p->view, width, height, joint, k->count, k->width_mm / 2, k->rgb, stroke_lift_mm, true);
         free(points);
         free(joint);
     }
@@ -91,8 +88,7 @@ void draw_extras(studio *s, const picture *p, int width, int height, bool on_top
         const mark *k = p->marks + i;
         if (k->on_top != on_top) continue;
         float at[3] = {(float)k->xyz[0], (float)k->xyz[1], (float)k->xyz[2]};
-        draw_balls(s, &p->view, width, height, at, 1, k->radius_mm, k->rgb, k->radius_mm + stroke_lift_mm,
-                   false);
+        draw_balls(s, &p->view, width, height, at, 1, k->radius_mm, k->rgb, k->radius_mm + stroke_lift_mm, false);
     }
     g->Disable(GL_BLEND);
     g->Enable(GL_DEPTH_TEST);
@@ -113,8 +109,8 @@ void look_for_marks(studio *s, const picture *p, int w, int h, uint8_t *seen)
         double t[4];
         clip_matrix(&p->view, w, h, p->marks[i].radius_mm + 2 * stroke_lift_mm, clip);
         for (int r = 0; r < 4; r++)
-            t[r] = (double)clip[r] * a[0] + (double)clip[4 + r] * a[1] + (double)clip[8 + r] * a[2] +
-                   (double)clip[12 + r];
+            t[r] =
+                (double)clip[r] * a[0] + (double)clip[4 + r] * a[1] + (double)clip[8 + r] * a[2] + (double)clip[12 + r];
         int x = (int)((t[0] / t[3] + 1) / 2 * w), y = (int)((t[1] / t[3] + 1) / 2 * h);
         bool inside = x >= 0 && y >= 0 && x < w && y < h;
         if (inside) g->ReadPixels(x, y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);

@@ -13,17 +13,11 @@ static const double clear_move_mm = 1.0; /* what moves less fades out of an over
 
 gallery_style gallery_style_default(void)
 {
-    return (gallery_style){.light_directions = 64,
-                           .skin_opacity = 0.25,
-                           .zoom = 1,
-                           .labels = true,
-                           .fonts = label_fonts_default()};
+    return (gallery_style){
+        .light_directions = 64, .skin_opacity = 0.25, .zoom = 1, .labels = true, .fonts = label_fonts_default()};
 }
 
-void subject_segment_color(segment_id id, double rgb[3])
-{
-    segment_color(id, rgb);
-}
+void subject_segment_color(segment_id id, double rgb[3]) { segment_color(id, rgb); }
 
 const char *subject_segment_title(segment_id id)
 {
@@ -49,8 +43,7 @@ static bool check(const subject *s, err *e)
     const surface *a = s->skin_before, *b = s->skin_after;
     if (a->vertex_count != b->vertex_count || a->triangle_count != b->triangle_count ||
         memcmp(a->tri, b->tri, 3 * (size_t)a->triangle_count * sizeof *a->tri) != 0)
-        return err_set(e, ERR_GEOMETRY,
-                       "the skin before (%d vertices) and after (%d) do not have the same triangles",
+        return err_set(e, ERR_GEOMETRY, "the skin before (%d vertices) and after (%d) do not have the same triangles",
                        a->vertex_count, b->vertex_count);
     for (int32_t v = 0; s->displacement_mm && v < b->vertex_count; v++)
         if (s->displacement_mm[v] < 0)
@@ -71,11 +64,9 @@ static bool find_centre(gallery *g, err *e)
     }
     if (!g->style->centre) return true;
     const landmark *c = l ? landmarks_find(l, g->style->centre) : NULL;
-    if (!c)
-        return err_set(e, ERR_USAGE, "there is no landmark \"%s\" to put in the middle", g->style->centre);
+    if (!c) return err_set(e, ERR_USAGE, "there is no landmark \"%s\" to put in the middle", g->style->centre);
     if (!(g->radius_mm > 0))
-        return err_set(e, ERR_USAGE,
-                       "a picture about a landmark needs N and Me, which give the size of the face");
+        return err_set(e, ERR_USAGE, "a picture about a landmark needs N and Me, which give the size of the face");
     vec_copy(c->xyz, g->centre);
     return true;
 }
@@ -93,9 +84,8 @@ bool gallery_open(const subject *s, const gallery_style *style, gallery **out, e
     g->displacement = NEW_ARRAY(double, n);
     g->moved = NEW_ARRAY(double, n);
     for (size_t v = 0; v < n; v++) {
-        g->displacement[v] = s->displacement_mm
-                                 ? s->displacement_mm[v]
-                                 : vec_distance(s->skin_after->xyz + 3 * v, s->skin_before->xyz + 3 * v);
+        g->displacement[v] = s->displacement_mm ? s->displacement_mm[v]
+                                                : vec_distance(s->skin_after->xyz + 3 * v, s->skin_before->xyz + 3 * v);
         g->moved[v] = fmin(1, g->displacement[v] / clear_move_mm);
     }
     *out = g;
@@ -146,8 +136,7 @@ bool gallery_bones(gallery *g, bool after, err *e)
     bool ok = true;
     for (int i = 0; ok && i < s->part_count; i++) {
         const subject_part *p = s->parts + i;
-        ok = model_create(g->room, p->bone, &params, &m[i], e) ||
-             err_prefix(e, "%s", p->name ? p->name : "bone");
+        ok = model_create(g->room, p->bone, &params, &m[i], e) || err_prefix(e, "%s", p->name ? p->name : "bone");
         l[i] = layer_default(m[i], p->kind);
         l[i].move = after ? p->after : p->before;
     }
@@ -176,8 +165,7 @@ bool gallery_can_show(const gallery *g, panel_show show, err *e)
     const char *what = panel_show_name(show);
     bool skin = show != SHOW_BONES && show != SHOW_TRACING, bones = show == SHOW_CLEAR || show == SHOW_BONES;
     if (skin && !s->skin_before) return err_set(e, ERR_USAGE, "a picture of \"%s\" needs the skin", what);
-    if (bones && s->part_count < 1)
-        return err_set(e, ERR_USAGE, "a picture of \"%s\" needs the segments", what);
+    if (bones && s->part_count < 1) return err_set(e, ERR_USAGE, "a picture of \"%s\" needs the segments", what);
     if (show == SHOW_SIGNED && !s->signed_mm)
         return err_set(e, ERR_USAGE, "a picture of \"%s\" needs the signed distance of the skins", what);
     if (show == SHOW_STRETCH && !s->stretch_percent)
@@ -230,8 +218,8 @@ bool gallery_draw(gallery *g, const sheet *what, image *out, err *e)
     int width, height;
     compose_tile_size(what->panel_count, &p, &width, &height);
     if (width < 64 || height < 64)
-        return err_set(e, ERR_USAGE, "%d panels do not fit into a picture of %d x %d pixels",
-                       what->panel_count, what->width, what->height);
+        return err_set(e, ERR_USAGE, "%d panels do not fit into a picture of %d x %d pixels", what->panel_count,
+                       what->width, what->height);
     compose_tile *tile = NEW_ARRAY(compose_tile, what->panel_count);
     image *im = NEW_ARRAY(image, what->panel_count);
     bool ok = true;
@@ -251,9 +239,8 @@ bool gallery_write(gallery *g, const sheet *what, const char *path, err *e)
     const subject *s = g->s;
     image im = {0};
     if (!gallery_draw(g, what, &im, e)) return false;
-    png_note notes[6] = {{"Software", "gnathos " GNATHOS_VERSION},
-                         {"Renderer", studio_description(g->room)},
-                         {"Case", s->case_name}};
+    png_note notes[6] = {
+        {"Software", "gnathos " GNATHOS_VERSION}, {"Renderer", studio_description(g->room)}, {"Case", s->case_name}};
     int count = 3;
     if (what->title) notes[count++] = (png_note){"Title", what->title};
     if (s->plan_text) notes[count++] = (png_note){"Plan", s->plan_text};

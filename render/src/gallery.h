@@ -8,7 +8,7 @@ struct gallery {
     studio *room;
     model *skin[2], **bone[2];   /* before, after; lit; NULL until needed */
     double *displacement;        /* its own, where the subject has none */
-    double *moved; /* 0..1: how clearly a vertex of the skin moves */
+    double *moved;               /* 0..1: how clearly a vertex of the skin moves */
     double centre[3], radius_mm; /* of the face; radius 0: not known */
 };
 

@@ -3,8 +3,8 @@
 
 bool gl_load(const backend *b, gl *out, err *e)
 {
-#define X(upper, name)                                                                                       \
-    out->name = (PFNGL##upper##PROC)backend_proc(b, "gl" #name);                                             \
+#define X(upper, name)                                                                                                 \
+    out->name = (PFNGL##upper##PROC)backend_proc(b, "gl" #name);                                                       \
     if (!out->name) return err_set(e, ERR_RESOURCE, "no pictures: %s lacks gl%s", backend_name(b), #name);
     GL_FUNCTIONS(X)
 #undef X
@@ -30,8 +30,7 @@ static GLuint compile(const gl *g, GLenum kind, const char *source, err *e)
 
 GLuint gl_program(const gl *g, const char *vertex, const char *fragment, err *e)
 {
-    GLuint v = compile(g, GL_VERTEX_SHADER, vertex, e), f = compile(g, GL_FRAGMENT_SHADER, fragment, e),
-           program = 0;
+    GLuint v = compile(g, GL_VERTEX_SHADER, vertex, e), f = compile(g, GL_FRAGMENT_SHADER, fragment, e), program = 0;
     if (v && f) {
         GLint ok = 0;
         program = g->CreateProgram();

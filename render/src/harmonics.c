@@ -19,8 +19,7 @@ void harmonics_at(const double d[3], double y[HARMONICS])
  */
 void lobe_at(const float normal[3], float t[HARMONICS])
 {
-    static const double lobe[HARMONICS] = {1,       2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4,
-                                           1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
+    static const double lobe[HARMONICS] = {1, 2.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4, 1.0 / 4};
     double y[HARMONICS];
     harmonics_at((const double[3]){(double)normal[0], (double)normal[1], (double)normal[2]}, y);
     for (int i = 0; i < HARMONICS; i++) t[i] = (float)(lobe[i] * y[i]);

@@ -7,8 +7,7 @@
 image image_new(int width, int height)
 {
     assert(width > 0 && height > 0 && width <= IMAGE_SIZE_MAX && height <= IMAGE_SIZE_MAX);
-    return (image){
-        .width = width, .height = height, .rgba = NEW_ARRAY(uint8_t, 4 * (size_t)width * (size_t)height)};
+    return (image){.width = width, .height = height, .rgba = NEW_ARRAY(uint8_t, 4 * (size_t)width * (size_t)height)};
 }
 
 void image_free(image *im)
@@ -23,10 +22,7 @@ uint8_t *image_pixel(const image *im, int x, int y)
     return im->rgba + 4 * ((size_t)y * (size_t)im->width + (size_t)x);
 }
 
-static uint8_t byte_of(double c)
-{
-    return (uint8_t)(c <= 0 ? 0 : c >= 1 ? 255 : c * 255 + 0.5);
-}
+static uint8_t byte_of(double c) { return (uint8_t)(c <= 0 ? 0 : c >= 1 ? 255 : c * 255 + 0.5); }
 
 void image_fill(image *im, const double rgb[3])
 {
@@ -40,8 +36,7 @@ void image_paste(image *to, const image *from, int x, int y)
     if (last <= first) return;
     for (int row = 0; row < from->height; row++)
         if (row + y >= 0 && row + y < to->height)
-            memcpy(image_pixel(to, x + first, row + y), image_pixel(from, first, row),
-                   4 * (size_t)(last - first));
+            memcpy(image_pixel(to, x + first, row + y), image_pixel(from, first, row), 4 * (size_t)(last - first));
 }
 
 image image_half(const image *im)

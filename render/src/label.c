@@ -78,14 +78,12 @@ static void release(pen *p)
 static bool set_up(pen *p, const label_fonts *fonts, err *e)
 {
     const char *path[2] = {fonts->regular, fonts->bold};
-    if (FT_Init_FreeType(&p->library))
-        return err_set(e, ERR_RESOURCE, "no labels: FreeType cannot be set up");
+    if (FT_Init_FreeType(&p->library)) return err_set(e, ERR_RESOURCE, "no labels: FreeType cannot be set up");
     for (int i = 0; i < 2; i++) {
         if (FT_New_Face(p->library, path[i], 0, &p->face[i])) {
             p->face[i] = NULL;
             return err_set(e, ERR_RESOURCE,
-                           "no labels: the font %s is missing or not a font (package fonts-dejavu-core)",
-                           path[i]);
+                           "no labels: the font %s is missing or not a font (package fonts-dejavu-core)", path[i]);
         }
         p->font[i] = cairo_ft_font_face_create_for_ft_face(p->face[i], FT_LOAD_NO_HINTING);
     }
@@ -217,8 +215,8 @@ void label_color_bar(pen *p, double x, double y, double width, double height, do
         colormap_color(m->map, m->low + t * (m->high - m->low), m->low, m->high, rgb);
         /* mixed in linear light, as the shader does */
         for (int k = 0; fade > 0 && t < fade && k < 3; k++)
-            rgb[k] = colormap_encode((1 - t / fade) * colormap_linear(m->fade_rgb[k]) +
-                                     t / fade * colormap_linear(rgb[k]));
+            rgb[k] =
+                colormap_encode((1 - t / fade) * colormap_linear(m->fade_rgb[k]) + t / fade * colormap_linear(rgb[k]));
         pen_box(p, x + column, y, 1, height, rgb, 1);
     }
     cairo_set_source_rgb(p->cr, ink[0], ink[1], ink[2]);
@@ -230,8 +228,7 @@ void label_color_bar(pen *p, double x, double y, double width, double height, do
     for (double v = ceil(m->low / step - 1e-9) * step; v <= m->high + 1e-9 * step; v += step) {
         double at = x + width * (v - m->low) / (m->high - m->low);
         char text[32];
-        snprintf(text, sizeof text, m->low < 0 && fabs(v) > 1e-9 * step ? "%+g" : "%g",
-                 fabs(v) < 1e-9 * step ? 0 : v);
+        snprintf(text, sizeof text, m->low < 0 && fabs(v) > 1e-9 * step ? "%+g" : "%g", fabs(v) < 1e-9 * step ? 0 : v);
         pen_box(p, floor(at), y - 0.35 * size, 1, 0.35 * size, ink, 1);
         pen_text(p, at, y - 0.55 * size, LABEL_CENTRE, size, false, ink, text);
     }
@@ -245,13 +242,11 @@ void label_sides(pen *p, double x, double y, double width, double height, double
     double across = vec_dot(frame->left, c->right), toward = vec_dot(frame->left, c->back), r = 0.85 * size;
     if (fabs(across) > 0.3) {
         bool left_on_right = across > 0;
-        pen_badge(p, x + 1.7 * r, y + height / 2, r, left_on_right ? right_rgb : left_rgb,
-                  left_on_right ? "R" : "L");
+        pen_badge(p, x + 1.7 * r, y + height / 2, r, left_on_right ? right_rgb : left_rgb, left_on_right ? "R" : "L");
         pen_badge(p, x + width - 1.7 * r, y + height / 2, r, left_on_right ? left_rgb : right_rgb,
                   left_on_right ? "L" : "R");
     } else if (fabs(toward) > 0.3) {
-        pen_badge(p, x + 1.7 * r, y + height / 2, r, toward > 0 ? left_rgb : right_rgb,
-                  toward > 0 ? "L" : "R");
+        pen_badge(p, x + 1.7 * r, y + height / 2, r, toward > 0 ? left_rgb : right_rgb, toward > 0 ? "L" : "R");
     }
 }
 

@@ -69,8 +69,7 @@ void label_points(pen *p, const image *im, double size, const camera *c, const l
         spread(q, m, step, low, high);
         for (int i = 0; i < m; i++) {
             const char *text = points[q[i].index].text;
-            double wide = pen_text_width(p, font, false, text),
-                   edge = side ? im->width - 4.4 * size : 4.4 * size;
+            double wide = pen_text_width(p, font, false, text), edge = side ? im->width - 4.4 * size : 4.4 * size;
             double elbow = side ? edge - wide - 0.4 * size : edge + wide + 0.4 * size;
             pen_line(p, elbow, q[i].at - 0.35 * font, q[i].x, q[i].y, fmax(1, size / 16), ink);
             pen_text(p, edge, q[i].at, side ? LABEL_RIGHT : LABEL_LEFT, font, false, ink, text);
@@ -79,8 +78,7 @@ void label_points(pen *p, const image *im, double size, const camera *c, const l
     free(all);
 }
 
-void label_column(pen *p, int width, int height, double size, const camera *c, const label_point *points,
-                  int count)
+void label_column(pen *p, int width, int height, double size, const camera *c, const label_point *points, int count)
 {
     placed *q = NEW_ARRAY(placed, count);
     double left = width, near_mm;

@@ -5,14 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-model_params model_params_skin(void)
-{
-    return (model_params){180, 3, 5};
-}
-model_params model_params_bone(void)
-{
-    return (model_params){50, 2, 1};
-}
+model_params model_params_skin(void) { return (model_params){180, 3, 5}; }
+model_params model_params_bone(void) { return (model_params){50, 2, 1}; }
 
 /* Unit normals of the triangles; zero for a triangle without area. */
 static double *face_normals(const surface *s)
@@ -32,8 +26,7 @@ static double *face_normals(const surface *s)
 /* corner[first[v] .. first[v+1]) are the positions of vertex v in tri, in ascending order. */
 static void corners_of_vertices(const surface *s, int32_t **first, int32_t **corner)
 {
-    int32_t *f = NEW_ARRAY(int32_t, s->vertex_count + 2),
-            *c = NEW_ARRAY(int32_t, 3 * (size_t)s->triangle_count);
+    int32_t *f = NEW_ARRAY(int32_t, s->vertex_count + 2), *c = NEW_ARRAY(int32_t, 3 * (size_t)s->triangle_count);
     for (int32_t i = 0; i < 3 * s->triangle_count; i++) f[s->tri[i] + 2]++;
     for (int32_t v = 0; v <= s->vertex_count; v++) f[v + 1] += f[v];
     for (int32_t i = 0; i < 3 * s->triangle_count; i++) c[f[s->tri[i] + 1]++] = i;
@@ -118,8 +111,7 @@ static void angle_weighted_normals(const surface *s, const double *face, model *
 {
     for (int32_t i = 0; i < 3 * m->triangle_count; i++) {
         int32_t t = i / 3;
-        const double *p = s->xyz + 3 * (size_t)s->tri[i],
-                     *q = s->xyz + 3 * (size_t)s->tri[3 * t + (i + 1) % 3],
+        const double *p = s->xyz + 3 * (size_t)s->tri[i], *q = s->xyz + 3 * (size_t)s->tri[3 * t + (i + 1) % 3],
                      *r = s->xyz + 3 * (size_t)s->tri[3 * t + (i + 2) % 3];
         double a[3], b[3];
         vec_sub(q, p, a);
@@ -136,8 +128,7 @@ static void unit_normals(model *m)
 {
     for (int32_t v = 0; v < m->vertex_count; v++) {
         float *n = m->normal + 3 * (size_t)v;
-        double length =
-            sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2]);
+        double length = sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2]);
         for (int k = 0; k < 3; k++) n[k] = length > 0 ? (float)((double)n[k] / length) : (k == 2);
     }
 }
@@ -153,15 +144,13 @@ void model_smooth(const model *m, float *values, int components, int passes)
             const int32_t *v = m->tri + 3 * (size_t)t;
             for (int k = 0; k < 3; k++) {
                 float *to = sum + n * (size_t)v[k];
-                const float *a = values + n * (size_t)v[(k + 1) % 3],
-                            *b = values + n * (size_t)v[(k + 2) % 3];
+                const float *a = values + n * (size_t)v[(k + 1) % 3], *b = values + n * (size_t)v[(k + 2) % 3];
                 for (size_t c = 0; c < n; c++) to[c] += a[c] + b[c];
             }
         }
         for (int32_t v = 0; v < m->vertex_count; v++)
             for (size_t c = 0; c < n; c++)
-                values[n * (size_t)v + c] =
-                    0.5f * (values[n * (size_t)v + c] + sum[n * (size_t)v + c] / count[v]);
+                values[n * (size_t)v + c] = 0.5f * (values[n * (size_t)v + c] + sum[n * (size_t)v + c] / count[v]);
     }
     free(sum);
     free(count);
@@ -189,8 +178,7 @@ bool model_create(studio *s, const surface *from, const model_params *params, mo
     m->xyz = NEW_ARRAY(float, 3 * (size_t)m->vertex_count);
     m->normal = NEW_ARRAY(float, 3 * (size_t)m->vertex_count);
     for (int32_t v = 0; v < m->vertex_count; v++)
-        for (size_t k = 0; k < 3; k++)
-            m->xyz[3 * (size_t)v + k] = (float)from->xyz[3 * (size_t)m->source[v] + k];
+        for (size_t k = 0; k < 3; k++) m->xyz[3 * (size_t)v + k] = (float)from->xyz[3 * (size_t)m->source[v] + k];
     angle_weighted_normals(from, face, m);
     unit_normals(m);
     model_smooth(m, m->normal, 3, params->normal_passes);
@@ -207,8 +195,7 @@ bool model_create(studio *s, const surface *from, const model_params *params, mo
     m->point_buffer = upload(g, GL_ARRAY_BUFFER, m->xyz, bytes);
     g->EnableVertexAttribArray(0);
     g->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
-    m->index_buffer =
-        upload(g, GL_ELEMENT_ARRAY_BUFFER, m->tri, 3 * (size_t)m->triangle_count * sizeof *m->tri);
+    m->index_buffer = upload(g, GL_ELEMENT_ARRAY_BUFFER, m->tri, 3 * (size_t)m->triangle_count * sizeof *m->tri);
     g->BindVertexArray(0);
     if (!studio_check(s, "loading a surface", e)) {
         model_free(&m);
@@ -238,7 +225,4 @@ void model_free(model **m)
     *m = NULL;
 }
 
-int32_t model_vertex_count(const model *m)
-{
-    return m->source_count;
-}
+int32_t model_vertex_count(const model *m) { return m->source_count; }

@@ -25,17 +25,8 @@ static int find(const char *const *names, int count, const char *name)
     return -1;
 }
 
-int panel_show_from_name(const char *name)
-{
-    return find(show_name, SHOW_COUNT, name);
-}
+int panel_show_from_name(const char *name) { return find(show_name, SHOW_COUNT, name); }
 
-int panel_pose_from_name(const char *name)
-{
-    return find(pose_name, POSE_COUNT, name);
-}
+int panel_pose_from_name(const char *name) { return find(pose_name, POSE_COUNT, name); }
 
-bool panel_has_pose(panel_show show)
-{
-    return show == SHOW_SKIN || show == SHOW_CLEAR || show == SHOW_BONES;
-}
+bool panel_has_pose(panel_show show) { return show == SHOW_SKIN || show == SHOW_CLEAR || show == SHOW_BONES; }

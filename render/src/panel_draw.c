@@ -91,8 +91,8 @@ static stroke *rims(const gallery *g, bool after, double **points, int *count)
     return out;
 }
 
-static bool draw_pose(gallery *g, const panel *p, bool after, const camera *view, image *out, int width,
-                      int height, err *e)
+static bool draw_pose(gallery *g, const panel *p, bool after, const camera *view, image *out, int width, int height,
+                      err *e)
 {
     bool ghost = p->pose == POSE_OVERLAY && panel_has_pose(p->show);
     if (!load(g, p->show, after, e) || (ghost && !load(g, p->show, !after, e))) return false;
@@ -105,8 +105,7 @@ static bool draw_pose(gallery *g, const panel *p, bool after, const camera *view
     }
     double *rim_points = NULL;
     stroke *lines = p->show == SHOW_BONES ? rims(g, after, &rim_points, &rim_count) : NULL;
-    picture pic = {
-        .layers = layers, .layer_count = count, .strokes = lines, .stroke_count = rim_count, .view = *view};
+    picture pic = {.layers = layers, .layer_count = count, .strokes = lines, .stroke_count = rim_count, .view = *view};
     picture_style style = picture_style_default();
     style.width = width;
     style.height = height;
@@ -144,13 +143,12 @@ static void write_bar(const gallery *g, panel_show show, pen *p, const image *im
     gallery_map(g, show, &bar);
     gallery_range r = gallery_map_range(g, show);
     double width = fmin(0.42 * im->width, 16 * size);
-    label_color_bar(p, im->width - width - 1.2 * size, im->height - 2.0 * size, width, 0.8 * size,
-                    0.75 * size, &bar);
+    label_color_bar(p, im->width - width - 1.2 * size, im->height - 2.0 * size, width, 0.8 * size, 0.75 * size, &bar);
     char text[96];
     snprintf(text, sizeof text, "%s (largest %.1f)", bar.caption, r.largest);
     double room = im->width - 2.4 * size, wide = pen_text_width(p, 0.8 * size, true, text);
-    pen_text(p, im->width - 1.2 * size, im->height - 3.9 * size, LABEL_RIGHT,
-             0.8 * size * fmin(1, room / wide), true, ink, text);
+    pen_text(p, im->width - 1.2 * size, im->height - 3.9 * size, LABEL_RIGHT, 0.8 * size * fmin(1, room / wide), true,
+             ink, text);
 }
 
 static void write_legend(const gallery *g, pen *p, const image *im, double size)
@@ -167,8 +165,8 @@ static void write_legend(const gallery *g, pen *p, const image *im, double size)
     /* at most a third of a small picture */
     double font = fmin(0.75 * size, 0.33 * im->height / (1.55 * (count ? count : 1)));
     for (int i = 0; i < count; i++) widest = fmax(widest, pen_text_width(p, font, false, entry[i].text));
-    label_legend(p, im->width - widest - 2.4 * font - 0.5 * size,
-                 im->height - count * 1.55 * font - 0.6 * size, font, entry, count);
+    label_legend(p, im->width - widest - 2.4 * font - 0.5 * size, im->height - count * 1.55 * font - 0.6 * size, font,
+                 entry, count);
     free(entry);
 }
 
@@ -183,17 +181,14 @@ static void write_pose(panel_show show, panel_pose pose, pen *p, const image *im
     }
     if (pose == POSE_CHECKER) {
         int side = checker_side(im);
-        for (int x = side; x < im->width; x += side)
-            pen_line(p, x, 0, x, im->height, fmax(1, size / 18), paper);
-        for (int y0 = side; y0 < im->height; y0 += side)
-            pen_line(p, 0, y0, im->width, y0, fmax(1, size / 18), paper);
+        for (int x = side; x < im->width; x += side) pen_line(p, x, 0, x, im->height, fmax(1, size / 18), paper);
+        for (int y0 = side; y0 < im->height; y0 += side) pen_line(p, 0, y0, im->width, y0, fmax(1, size / 18), paper);
         for (int k = 0; k < 2; k++)
             pen_text(p, (k + 0.5) * side, side - 0.5 * size, LABEL_CENTRE, 0.75 * size, true, ink,
                      k ? (bones ? "planned" : "predicted") : "before");
     }
     if (pose == POSE_OVERLAY) {
-        label_entry entry[2] = {{"outline: before", {0}},
-                                {bones ? "solid: planned" : "solid: predicted", {0}}};
+        label_entry entry[2] = {{"outline: before", {0}}, {bones ? "solid: planned" : "solid: predicted", {0}}};
         vec_copy(ghost_rgb, entry[0].rgb);
         material_color(bones ? MATERIAL_BONE : MATERIAL_SKIN, entry[1].rgb);
         double wide = pen_text_width(p, 0.75 * size, false, entry[1].text);
@@ -210,11 +205,10 @@ static bool write_labels(const gallery *g, const panel *p, const camera *view, i
     if (panel_has_pose(p->show)) write_pose(p->show, p->pose, marker, im, size);
     label_sides(marker, 0, 0, im->width, im->height, size, view, &g->s->frame);
     if (!(view->eye_mm > 0))
-        label_scale_bar(marker, 0.9 * size, im->height - 1.0 * size, scale,
-                        label_scale_length(scale, im->width), 0.8 * size);
+        label_scale_bar(marker, 0.9 * size, im->height - 1.0 * size, scale, label_scale_length(scale, im->width),
+                        0.8 * size);
     if (!panel_has_pose(p->show)) write_bar(g, p->show, marker, im, size);
-    if (p->show == SHOW_BONES || (p->show == SHOW_CLEAR && p->pose != POSE_BEFORE))
-        write_legend(g, marker, im, size);
+    if (p->show == SHOW_BONES || (p->show == SHOW_CLEAR && p->pose != POSE_BEFORE)) write_legend(g, marker, im, size);
     pen_close(&marker);
     return true;
 }

@@ -23,10 +23,9 @@ picture_style picture_style_default(void)
 
 static bool check(const picture *p, const picture_style *style, err *e)
 {
-    if (style->width < 16 || style->height < 16 || style->width > IMAGE_SIZE_MAX ||
-        style->height > IMAGE_SIZE_MAX)
-        return err_set(e, ERR_USAGE, "a picture of %d x %d pixels: sides must be 16 to %d", style->width,
-                       style->height, IMAGE_SIZE_MAX);
+    if (style->width < 16 || style->height < 16 || style->width > IMAGE_SIZE_MAX || style->height > IMAGE_SIZE_MAX)
+        return err_set(e, ERR_USAGE, "a picture of %d x %d pixels: sides must be 16 to %d", style->width, style->height,
+                       IMAGE_SIZE_MAX);
     if (!(style->exposure > 0)) return err_set(e, ERR_USAGE, "exposure must be > 0, got %g", style->exposure);
     for (int i = 0; i < p->layer_count; i++) {
         const layer *l = p->layers + i;
@@ -85,8 +84,7 @@ static bool use_canvas(studio *s, const picture_style *style, err *e)
     return true;
 }
 
-bool picture_render(studio *s, const picture *p, const picture_style *style, image *out, uint8_t *mark_seen,
-                    err *e)
+bool picture_render(studio *s, const picture *p, const picture_style *style, image *out, uint8_t *mark_seen, err *e)
 {
     if (!check(p, style, e) || !studio_use(s, e) || !use_canvas(s, style, e)) return false;
     const gl *g = &s->gl;

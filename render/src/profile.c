@@ -5,14 +5,10 @@
 #include "geometry/vec.h"
 #include <stdlib.h>
 
-const double profile_rgb[2][3] = {{0.16, 0.40, 0.72}, {0.80, 0.20, 0.16}},
-             profile_same_rgb[3] = {0.30, 0.33, 0.38};
+const double profile_rgb[2][3] = {{0.16, 0.40, 0.72}, {0.80, 0.20, 0.16}}, profile_same_rgb[3] = {0.30, 0.33, 0.38};
 static const double same_share = 0.1; /* of a clear move: less is no move */
 
-double profile_text_size(int height)
-{
-    return fmax(9, height / 52.0);
-}
+double profile_text_size(int height) { return fmax(9, height / 52.0); }
 
 bool profile_has_table(const gallery *g, int width, int height)
 {
@@ -41,8 +37,7 @@ static void find_midline(profile *f)
     vec_axpy(frame->origin, n ? left / n : 0, frame->left, f->middle);
 }
 
-bool profile_open(gallery *g, const char *const *labels, double margin_mm, int width, int height,
-                  profile *out, err *e)
+bool profile_open(gallery *g, const char *const *labels, double margin_mm, int width, int height, profile *out, err *e)
 {
     profile f = {.g = g, .width = width, .height = height, .size = profile_text_size(height)};
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, p[3], local[3];
@@ -56,8 +51,7 @@ bool profile_open(gallery *g, const char *const *labels, double margin_mm, int w
                 high[k] = fmax(high[k], local[1 + k] + margin_mm);
             }
         }
-    if (!(low[0] < high[0]))
-        return err_set(e, ERR_USAGE, "a drawing of the profile needs landmarks of the profile");
+    if (!(low[0] < high[0])) return err_set(e, ERR_USAGE, "a drawing of the profile needs landmarks of the profile");
     head_frame_to_world(&g->s->frame, (double[3]){0, (low[0] + high[0]) / 2, (low[1] + high[1]) / 2}, p);
     f.view = camera_standard(VIEW_LEFT, &g->s->frame, p);
     f.view.half_height_mm = fmax((high[1] - low[1]) / 2, (high[0] - low[0]) / 2 * height / width);
@@ -87,8 +81,8 @@ void profile_dot(const profile *f, const double at[3], double radius, const doub
     pen_dot(f->p, x, y, radius, rgb);
 }
 
-static void draw_section(const profile *f, const surface *s, const rigid *move, const double *moved,
-                         double width, const double rgb[3])
+static void draw_section(const profile *f, const surface *s, const rigid *move, const double *moved, double width,
+                         const double rgb[3])
 {
     int count;
     int32_t *triangle;
@@ -97,8 +91,7 @@ static void draw_section(const profile *f, const surface *s, const rigid *move, 
         for (int i = 0; i < count; i++) {
             const int32_t *v = s->tri + 3 * (size_t)triangle[i];
             bool moves = !moved || fmax(moved[v[0]], fmax(moved[v[1]], moved[v[2]])) > same_share;
-            if (moves == pass)
-                profile_line(f, piece + 6 * i, piece + 6 * i + 3, width, moves ? rgb : profile_same_rgb);
+            if (moves == pass) profile_line(f, piece + 6 * i, piece + 6 * i + 3, width, moves ? rgb : profile_same_rgb);
         }
     free(piece);
     free(triangle);
@@ -109,8 +102,7 @@ void profile_skin(const profile *f, bool after, double width)
     const subject *s = f->g->s;
     rigid stay = rigid_identity();
     if (s->skin_before)
-        draw_section(f, after ? s->skin_after : s->skin_before, &stay, f->g->moved, width,
-                     profile_rgb[after]);
+        draw_section(f, after ? s->skin_after : s->skin_before, &stay, f->g->moved, width, profile_rgb[after]);
 }
 
 void profile_bones(const profile *f, bool after, double width)

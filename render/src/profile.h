@@ -16,8 +16,8 @@ extern const double profile_rgb[2][3], profile_same_rgb[3]; /* before, planned; 
 
 /* A sheet of paper with the midline of the subject's landmarks; the camera shows all points of `labels` (a
  * NULL ends the list) of both poses, and margin_mm more. */
-bool profile_open(gallery *g, const char *const *labels, double margin_mm, int width, int height,
-                  profile *out, err *e) MUST_CHECK;
+bool profile_open(gallery *g, const char *const *labels, double margin_mm, int width, int height, profile *out,
+                  err *e) MUST_CHECK;
 double profile_text_size(int height);
 /* Is there room for a table beside the drawing? */
 bool profile_has_table(const gallery *g, int width, int height);

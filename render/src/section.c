@@ -6,8 +6,7 @@
 double *section_of(const surface *s, const rigid *move, const double point[3], const double normal[3],
                    int32_t **triangle, int *count)
 {
-    double *placed = NEW_ARRAY(double, 3 * (size_t)s->vertex_count),
-           *height = NEW_ARRAY(double, s->vertex_count);
+    double *placed = NEW_ARRAY(double, 3 * (size_t)s->vertex_count), *height = NEW_ARRAY(double, s->vertex_count);
     for (size_t v = 0; v < (size_t)s->vertex_count; v++) {
         double from[3];
         rigid_apply(move, s->xyz + 3 * v, placed + 3 * v);

@@ -19,13 +19,9 @@ static const look looks[] = {
     [MATERIAL_PLAIN] = {{0.70, 0.72, 0.75}, {0, 0, 0}, 26, 0.50f, 0.04f},
 };
 static const float outline_rgb[3] = {0.85f, 0.93f, 1.0f};
-static const float map_shine =
-    0.3f; /* colours that carry a number are to be read: less highlight over them */
+static const float map_shine = 0.3f; /* colours that carry a number are to be read: less highlight over them */
 
-void material_color(material m, double rgb[3])
-{
-    vec_copy(looks[m].rgb, rgb);
-}
+void material_color(material m, double rgb[3]) { vec_copy(looks[m].rgb, rgb); }
 
 typedef struct job {
     const layer *l;
@@ -36,10 +32,7 @@ typedef struct job {
     shading out;
 } job;
 
-static float dot3(const float *a, const float *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+static float dot3(const float *a, const float *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static void unit3(float *a)
 {
@@ -65,10 +58,8 @@ static void shade_vertices(int64_t begin, int64_t end, void *context)
     const look *k = j->k;
     float shine = j->l->scalar ? map_shine * k->shine : k->shine, opacity = (float)j->l->opacity;
     for (int64_t i = begin; i < end; i++) {
-        const float *n = j->m->normal + 3 * i, *sharp = j->m->sharp + HARMONICS * i,
-                    *soft = j->m->soft + HARMONICS * i;
-        float v[3] = {j->back[0], j->back[1], j->back[2]}, *light = j->out.light + 4 * i,
-              *spark = j->out.spark + 4 * i;
+        const float *n = j->m->normal + 3 * i, *sharp = j->m->sharp + HARMONICS * i, *soft = j->m->soft + HARMONICS * i;
+        float v[3] = {j->back[0], j->back[1], j->back[2]}, *light = j->out.light + 4 * i, *spark = j->out.spark + 4 * i;
         if (j->perspective) {
             for (int c = 0; c < 3; c++) v[c] = j->eye[c] - j->m->xyz[3 * i + c];
             unit3(v);
@@ -82,8 +73,7 @@ static void shade_vertices(int64_t begin, int64_t end, void *context)
             light[c] = fmaxf(0, hard + k->scatter[c] * (spread - hard));
         }
         /* the transfer of degree 0 is Y_00 where nothing hides the sky */
-        float sky = fminf(1, fmaxf(0, sharp[0] / 0.28209479f)), nv = dot3(n, v),
-              edge = 1 - fminf(1, fmaxf(0, nv));
+        float sky = fminf(1, fmaxf(0, sharp[0] / 0.28209479f)), nv = dot3(n, v), edge = 1 - fminf(1, fmaxf(0, nv));
         float bright = shine * (glint(n, v, j->key, k->gloss) + 0.35f * glint(n, v, j->fill, k->gloss));
         light[3] = 1 - sky;
         for (int c = 0; c < 3; c++)

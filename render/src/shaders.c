@@ -22,28 +22,29 @@ const char *const shader_shade_vertex =
     "    gl_Position = to_clip * w;\n"
     "}\n";
 
-#define SHADE_FRAGMENT(albedo)                                                                               \
-    "#version 330 core\n"                                                                                    \
-    "centroid in vec4 lit, added;\n"                                                                         \
-    "centroid in vec3 base;\n"                                                                               \
-    "centroid in vec2 shown;\n"                                                                              \
-    "uniform float fade;\n"                                                                                  \
-    "uniform sampler2D map;\n"                                                                               \
-    "uniform vec3 no_data;\n"                                                                                \
-    "out vec4 result;\n"                                                                                     \
-    "void main() {\n" albedo /* light between the walls of a hollow: 1/(1 - albedo (1 - sky)) sums bounces */ \
-    "    vec3 c = albedo * lit.rgb / (1.0 - 0.85 * albedo * lit.a) + added.rgb;\n"                           \
-    /* the inside of an open surface: flat and dull, so that it is not taken for an outside */               \
-    "    if (!gl_FrontFacing) c = albedo * vec3(0.23, 0.215, 0.22);\n"                                       \
-    "    result = vec4(c * added.a, added.a);\n"                                                             \
+#define SHADE_FRAGMENT(albedo)                                                                                         \
+    "#version 330 core\n"                                                                                              \
+    "centroid in vec4 lit, added;\n"                                                                                   \
+    "centroid in vec3 base;\n"                                                                                         \
+    "centroid in vec2 shown;\n"                                                                                        \
+    "uniform float fade;\n"                                                                                            \
+    "uniform sampler2D map;\n"                                                                                         \
+    "uniform vec3 no_data;\n"                                                                                          \
+    "out vec4 result;\n"                                                                                               \
+    "void main() {\n" albedo /* light between the walls of a hollow: 1/(1 - albedo (1 - sky)) sums bounces */          \
+    "    vec3 c = albedo * lit.rgb / (1.0 - 0.85 * albedo * lit.a) + added.rgb;\n" /* the inside of an open surface:   \
+                                                                                      flat and dull, so that it is not \
+                                                                                      taken for an outside */          \
+    "    if (!gl_FrontFacing) c = albedo * vec3(0.23, 0.215, 0.22);\n"                                                 \
+    "    result = vec4(c * added.a, added.a);\n"                                                                       \
     "}\n"
 
 const char *const shader_shade_fragment = SHADE_FRAGMENT("    vec3 albedo = base;\n");
 
-const char *const shader_map_fragment = SHADE_FRAGMENT(
-    "    vec3 mapped = texture(map, vec2((clamp(shown.x, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;\n"
-    "    float share = fade > 0.0 ? clamp(shown.x / fade, 0.0, 1.0) : 1.0;\n"
-    "    vec3 albedo = shown.y > 0.999 ? mix(base, mapped, share) : no_data;\n");
+const char *const shader_map_fragment =
+    SHADE_FRAGMENT("    vec3 mapped = texture(map, vec2((clamp(shown.x, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb;\n"
+                   "    float share = fade > 0.0 ? clamp(shown.x / fade, 0.0, 1.0) : 1.0;\n"
+                   "    vec3 albedo = shown.y > 0.999 ? mix(base, mapped, share) : no_data;\n");
 
 const char *const shader_ball_vertex =
     "#version 330 core\n"

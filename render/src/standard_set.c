@@ -8,10 +8,10 @@
 #define LEFT 90, 0, 0
 #define RIGHT -90, 0, 0
 #define THREE_QUARTER 45, 0, 0
-#define PAIR(show, view, second)                                                                             \
-    2, 2,                                                                                                    \
-    {                                                                                                        \
-        {show, POSE_BEFORE, view, "Before"}, {show, POSE_AFTER, view, second}                                \
+#define PAIR(show, view, second)                                                                                       \
+    2, 2,                                                                                                              \
+    {                                                                                                                  \
+        {show, POSE_BEFORE, view, "Before"}, { show, POSE_AFTER, view, second }                                        \
     }
 
 const standard_picture standard_set[] = {

@@ -12,10 +12,7 @@ bool studio_check(studio *s, const char *doing, err *e)
     return err_set(e, ERR_RESOURCE, "no picture: OpenGL error 0x%04x while %s", code, doing);
 }
 
-bool studio_use(studio *s, err *e)
-{
-    return backend_bind(s->context, e);
-}
+bool studio_use(studio *s, err *e) { return backend_bind(s->context, e); }
 
 static bool set_up(studio *s, err *e)
 {
@@ -56,7 +53,4 @@ void studio_close(studio **s)
     *s = NULL;
 }
 
-const char *studio_description(const studio *s)
-{
-    return s->description;
-}
+const char *studio_description(const studio *s) { return s->description; }

@@ -8,8 +8,8 @@ struct studio {
     backend *context;
     gl gl;
     GLuint shade, map, ball, ribbon, finish; /* programs */
-    GLuint empty_array;                 /* a vertex array without attributes, for the full-screen triangle */
-    canvas sheet; /* kept from the last picture: making it costs as much as a small model */
+    GLuint empty_array;                      /* a vertex array without attributes, for the full-screen triangle */
+    canvas sheet;                            /* kept from the last picture: making it costs as much as a small model */
     char description[256];
 };
 

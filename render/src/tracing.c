@@ -35,10 +35,7 @@ static const char *const dots[] = {"S",  "N",  "Po", "Or", "ANS",     "PNS", "A"
                                    "Gn", "Me", "Go", "Co", "Ar",      "U1",  "U1_apex", "L1", "L1_apex",
                                    "G'", "Pn", "Sn", "Ls", "Li_soft", "B'",  "Pg'",     "Me'"};
 
-static bool same_point(const double a[3], const double b[3])
-{
-    return vec_distance(a, b) < same_mm;
-}
+static bool same_point(const double a[3], const double b[3]) { return vec_distance(a, b) < same_mm; }
 
 /* Lines run in the midsagittal projection; the camera looks along it. */
 static void draw_planes(const profile *f, bool after)
@@ -57,8 +54,7 @@ static void draw_planes(const profile *f, bool after)
         profile_line(f, from, to, 0.10 * f->size, same ? profile_same_rgb : profile_rgb[after]);
         if (after || !planes[i].name || !f->g->style->labels) continue;
         camera_project(&f->view, f->width, f->height, from, &x, &y, &near_mm);
-        pen_text(f->p, x + 0.3 * f->size, y + 0.25 * f->size, LABEL_LEFT, 0.75 * f->size, true, faint,
-                 planes[i].name);
+        pen_text(f->p, x + 0.3 * f->size, y + 0.25 * f->size, LABEL_LEFT, 0.75 * f->size, true, faint, planes[i].name);
     }
     /* true vertical line through subnasale */
     double sn[3], other[3], top[3], bottom[3], me[3];
@@ -69,8 +65,7 @@ static void draw_planes(const profile *f, bool after)
         vec_axpy(sn, 30, f->g->s->frame.up, top);
         vec_sub(me, sn, bottom);
         vec_axpy(sn, vec_dot(bottom, f->g->s->frame.up) - 6, f->g->s->frame.up, bottom);
-        if (!same || !after)
-            profile_line(f, top, bottom, 0.10 * f->size, same ? profile_same_rgb : profile_rgb[after]);
+        if (!same || !after) profile_line(f, top, bottom, 0.10 * f->size, same ? profile_same_rgb : profile_rgb[after]);
         double x, y, near_mm;
         camera_project(&f->view, f->width, f->height, top, &x, &y, &near_mm);
         if (!after && f->g->style->labels)
@@ -88,8 +83,7 @@ static void draw_dots(const profile *f)
         if (!same) profile_dot(f, at[1], 0.17 * f->size, profile_rgb[1]);
         camera_project(&f->view, f->width, f->height, at[0], &x, &y, &near_mm);
         if (f->g->style->labels && !strchr(dots[i], '_'))
-            pen_text(f->p, x + 0.4 * f->size, y - 0.3 * f->size, LABEL_LEFT, 0.68 * f->size, false, ink,
-                     dots[i]);
+            pen_text(f->p, x + 0.4 * f->size, y - 0.3 * f->size, LABEL_LEFT, 0.68 * f->size, false, ink, dots[i]);
     }
 }
 
@@ -125,8 +119,7 @@ static bool draw_ground(const profile *f, image *out, err *e)
 /* The whole table has sixty rows: here are those that the plan changes, and the ones everybody asks for. */
 static bool has_row(int measure, const ceph_value *was, const ceph_value *is)
 {
-    static const char *const always[] = {"SNA",  "SNB",  "ANB",     "FMA",     "U1-FH",
-                                         "IMPA", "Wits", "overjet", "overbite"};
+    static const char *const always[] = {"SNA", "SNB", "ANB", "FMA", "U1-FH", "IMPA", "Wits", "overjet", "overbite"};
     if (!isfinite(was[measure].value)) return false;
     if (fabs(is[measure].value - was[measure].value) >= 0.05) return true;
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)
@@ -154,8 +147,7 @@ static void draw_table(const profile *f, pen *p, double x, double right, int hei
         rows += 1 + (strcmp(group, ceph_measures[i].group) != 0);
         group = ceph_measures[i].group;
     }
-    double step = fmin((height - 2.0 * f->size) / rows, 1.3 * f->size), size = step / 1.28,
-           y = step + 0.4 * f->size;
+    double step = fmin((height - 2.0 * f->size) / rows, 1.3 * f->size), size = step / 1.28, y = step + 0.4 * f->size;
     double norm = sex ? 8.5 * size : 15.6 * size,
            column[3] = {right - norm - 10 * size, right - norm - 4.8 * size, right - norm};
     static const char *const head[] = {"before", "planned", "change"};
@@ -164,8 +156,7 @@ static void draw_table(const profile *f, pen *p, double x, double right, int hei
     group = "";
     bool substitute = false;
     if (sex != 'm')
-        pen_text(p, sex ? right : right - 7.8 * size, y, LABEL_RIGHT, size, true, ink,
-                 sex ? "norm, women" : "women");
+        pen_text(p, sex ? right : right - 7.8 * size, y, LABEL_RIGHT, size, true, ink, sex ? "norm, women" : "women");
     if (sex != 'f') pen_text(p, right, y, LABEL_RIGHT, size, true, ink, sex ? "norm, men" : "men");
     for (int i = 0; i < ceph_measure_count; i++) {
         const ceph_measure *m = ceph_measures + i;
@@ -192,14 +183,12 @@ static void draw_table(const profile *f, pen *p, double x, double right, int hei
         }
         norm_text(&m->women, women);
         norm_text(&m->men, men);
-        if (sex != 'm')
-            pen_text(p, sex ? right : right - 7.8 * size, y, LABEL_RIGHT, size, false, faint, women);
+        if (sex != 'm') pen_text(p, sex ? right : right - 7.8 * size, y, LABEL_RIGHT, size, false, faint, women);
         if (sex != 'f') pen_text(p, right, y, LABEL_RIGHT, size, false, faint, men);
     }
     pen_text(p, x, y += 1.5 * step, LABEL_LEFT, 0.85 * size, false, faint,
-             substitute
-                 ? "What the plan changes, of all measures. * a neighbour stands for a missing landmark."
-                 : "What the plan changes, of all measures.");
+             substitute ? "What the plan changes, of all measures. * a neighbour stands for a missing landmark."
+                        : "What the plan changes, of all measures.");
 }
 
 bool tracing_draw(gallery *g, int width, int height, image *out, err *e)
@@ -208,8 +197,7 @@ bool tracing_draw(gallery *g, int width, int height, image *out, err *e)
     int plot_width = beside ? (int)(width - 0.74 * height) : width;
     profile f;
     image im = {0}, plot = {0};
-    if (!profile_open(g, framed, margin_mm, plot_width, height, &f, e) || !draw_ground(&f, &plot, e))
-        return false;
+    if (!profile_open(g, framed, margin_mm, plot_width, height, &f, e) || !draw_ground(&f, &plot, e)) return false;
     bool ok = pen_open(&plot, &g->style->fonts, &f.p, e);
     if (ok) {
         for (int after = 0; after < 2; after++) {

@@ -43,8 +43,7 @@ static void write_deck(const char *folder, const tetmesh *m, const attach_map *a
             law->mu_kpa / 2, 2 / law->lambda_kpa);
     for (int32_t v = 0; v < m->vertex_count; v++)
         for (int c = 0; c < 3 && a->kind[v] == NODE_TIED; c++)
-            fprintf(f, "%d,%d,%d,%.12g\n", v + 1, c + 1, c + 1,
-                    a->segment[v] == SEGMENT_MAXILLA ? move[c] : 0);
+            fprintf(f, "%d,%d,%d,%.12g\n", v + 1, c + 1, c + 1, a->segment[v] == SEGMENT_MAXILLA ? move[c] : 0);
     fprintf(f, "*NODE PRINT,NSET=NALL\nU\n*END STEP\n");
     fclose(f);
 }
@@ -128,8 +127,8 @@ int main(int argc, char **argv)
         bool ended = run_calculix(argv[1], threads, &theirs);
         int iterations = 0;
         double worst = ended ? compare(argv[1], &m, q.xyz, &iterations) : -1;
-        printf("%d,%.2f,%d,%s,%d,%.2f,%.2f,%s,%d,%.2f,%.2f,%.1f,%.1f,%.2g\n", m.vertex_count, n ? 0.49 : 0.45,
-               threads, solve_outcome_text(q.outcome), q.iterations, ours.wall_s, ours.cpu_s,
+        printf("%d,%.2f,%d,%s,%d,%.2f,%.2f,%s,%d,%.2f,%.2f,%.1f,%.1f,%.2g\n", m.vertex_count, n ? 0.49 : 0.45, threads,
+               solve_outcome_text(q.outcome), q.iterations, ours.wall_s, ours.cpu_s,
                ended && worst >= 0 ? "solved" : "stopped", iterations, theirs.wall_s, theirs.cpu_s,
                theirs.wall_s / ours.wall_s, theirs.cpu_s / ours.cpu_s, worst);
         fflush(stdout);

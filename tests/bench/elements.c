@@ -77,8 +77,8 @@ static void slab_rows(double poisson, int finest)
                 square += d * d / got.count;
             }
             printf("slab,%g,%s,%d,%lld,%s,%d,%.2f,%.2f,%.5f,%.5f\n", poisson, name[kind], cells,
-                   (long long)q.unknown_count, solve_outcome_text(q.outcome), q.iterations, took.wall_s,
-                   took.cpu_s, worst, sqrt(square));
+                   (long long)q.unknown_count, solve_outcome_text(q.outcome), q.iterations, took.wall_s, took.cpu_s,
+                   worst, sqrt(square));
             fflush(stdout);
             free(got.u);
         }

@@ -31,8 +31,7 @@ static result run(int cells, double poisson, int threads)
     equilibrium q;
     spent begin = time_now();
     if (!equilibrium_solve(&p, &params, &q, &e)) give_up(&e);
-    return (result){q.unknown_count, m.vertex_count, q.iterations,
-                    q.cg_iterations, (int)q.outcome, time_since(begin)};
+    return (result){q.unknown_count, m.vertex_count, q.iterations, q.cg_iterations, (int)q.outcome, time_since(begin)};
 }
 
 int main(int argc, char **argv)

@@ -36,12 +36,15 @@ static void run(work *w, contact_kind kind, bool again)
     equilibrium q, next;
     plan_contact touch = {0};
     solver *t = NULL;
-    equilibrium_problem problem = {.mesh = &w->flesh.mesh, .attach = &w->flesh.attach, .materials = w->flesh.material,
+    equilibrium_problem problem = {.mesh = &w->flesh.mesh,
+                                   .attach = &w->flesh.attach,
+                                   .materials = w->flesh.material,
                                    .material_count = w->flesh.material_count};
     memcpy(problem.motion, w->moves.move, sizeof problem.motion);
     spent one = one_linear_solve(&problem, w->params.blas_threads), begin = time_now();
     if (kind != CONTACT_OFF) {
-        plan_contact_make(kind, &w->p.tissue, &w->bones, &w->flesh.attach, w->moves.move, w->c.material.young_kpa, &touch);
+        plan_contact_make(kind, &w->p.tissue, &w->bones, &w->flesh.attach, w->moves.move, w->c.material.young_kpa,
+                          &touch);
         problem.contact = &touch.setup;
     }
     if (!solver_create(&problem, w->params.blas_threads, &t, &e) ||

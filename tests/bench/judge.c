@@ -66,8 +66,7 @@ int main(int argc, char **argv)
     prepared p = {0};
     judge *j;
     int count = argc > 2 ? atoi(argv[2]) : 200;
-    if (argc < 2 || count < 1 || !case_file_load(argv[1], &c, &e) ||
-        !prepared_get(&c, NULL, NULL, &p, &e)) {
+    if (argc < 2 || count < 1 || !case_file_load(argv[1], &c, &e) || !prepared_get(&c, NULL, NULL, &p, &e)) {
         fprintf(stderr, "bench_judge CASE [COUNT]: %s\n", e.text);
         return 1;
     }
@@ -110,11 +109,9 @@ int main(int argc, char **argv)
             if (out->finding[k].has_place) sum = add_bits(sum, out->finding[k].place, 3);
         }
     }
-    printf(
-        "%s: made in %.2f s; %d plans on %d threads in %.2f s: %.0f per second, %.2f ms of processor each\n",
-        c.name, made - start, count, parallel_threads(), wall, count / wall, 1e3 * cpu / count);
-    printf("fine %d, caution %d, stop %d; decided by", level[LIMIT_FINE], level[LIMIT_CAUTION],
-           level[LIMIT_STOP]);
+    printf("%s: made in %.2f s; %d plans on %d threads in %.2f s: %.0f per second, %.2f ms of processor each\n", c.name,
+           made - start, count, parallel_threads(), wall, count / wall, 1e3 * cpu / count);
+    printf("fine %d, caution %d, stop %d; decided by", level[LIMIT_FINE], level[LIMIT_CAUTION], level[LIMIT_STOP]);
     for (int l = 0; l < LIMIT_COUNT; l++)
         if (reason[l]) printf(" %s %d", limit_default[l].name, reason[l]);
     printf("; values %016llx\n", (unsigned long long)sum);

@@ -42,9 +42,9 @@ int main(int argc, char **argv)
         }
         for (size_t k = 0; k < 3 * (size_t)m.vertex_count; k += 3)
             apart = fmax(apart, vec_distance(full + k, q.xyz + k));
-        printf("%d,%d,%g,%d,%d,%d,%d,%.4f,%.4f,%.3f,%.3f,%.3f,%.3f\n", m.vertex_count, m.tet_count,
-               tolerance[i], r.left_out_nodes, r.left_out_tets, r.rounds, q.iterations, r.error_mm, apart,
-               r.estimate_s, r.check_s, total, total / full_s);
+        printf("%d,%d,%g,%d,%d,%d,%d,%.4f,%.4f,%.3f,%.3f,%.3f,%.3f\n", m.vertex_count, m.tet_count, tolerance[i],
+               r.left_out_nodes, r.left_out_tets, r.rounds, q.iterations, r.error_mm, apart, r.estimate_s, r.check_s,
+               total, total / full_s);
         equilibrium_free(&q);
         scene_report_free(&r);
     }

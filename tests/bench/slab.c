@@ -89,11 +89,10 @@ int main(int argc, char **argv)
             qsort(cpu, (size_t)repeats, sizeof *cpu, by_value);
             printf("%d,%d,%lld,%.2f,%d,%s,%s,%d,%d,%d,%d,%.4f,%.2f,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.3f,%.3f,%."
                    "3f\n",
-                   m.vertex_count, m.tet_count, (long long)r.q.unknown_count, n ? 0.49 : 0.45, threads,
-                   way_name[way], solve_outcome_text(r.q.outcome), r.q.iterations, r.q.cg_iterations,
-                   r.q.preconditioners, r.q.factorisations, r.q.extremes.min_j, r.took.wall_s, r.took.cpu_s,
-                   r.linear.wall_s, r.linear.cpu_s, wall[0], wall[repeats / 2], wall[repeats - 1], cpu[0],
-                   cpu[repeats / 2], cpu[repeats - 1]);
+                   m.vertex_count, m.tet_count, (long long)r.q.unknown_count, n ? 0.49 : 0.45, threads, way_name[way],
+                   solve_outcome_text(r.q.outcome), r.q.iterations, r.q.cg_iterations, r.q.preconditioners,
+                   r.q.factorisations, r.q.extremes.min_j, r.took.wall_s, r.took.cpu_s, r.linear.wall_s, r.linear.cpu_s,
+                   wall[0], wall[repeats / 2], wall[repeats - 1], cpu[0], cpu[repeats / 2], cpu[repeats - 1]);
             fflush(stdout);
             equilibrium_free(&r.q);
         }

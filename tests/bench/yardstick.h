@@ -44,12 +44,10 @@ static inline spent one_linear_solve(const equilibrium_problem *p, int blas_thre
     for (int32_t i = 0; i < t->b.unknown_count; i++) b[i] = 1;
     assembly_stiffness(&t->a, p->mesh->xyz, PROJECTION_NONE);
     assembly_matrix(&t->a, &t->b);
-    if (!linear_factor(t->l, t->a.value, 0, &positive, &e) || !positive || !linear_solve(t->l, b, b, &e))
-        give_up(&e);
+    if (!linear_factor(t->l, t->a.value, 0, &positive, &e) || !positive || !linear_solve(t->l, b, b, &e)) give_up(&e);
     spent out = time_since(begin);
     linear_stats s = linear_measure(t->l);
-    fprintf(stderr,
-            "one linear solve: %.2f s (CPU %.2f), ordering %.2f, factor %.2f, solve %.3f, %.1f GFLOP\n",
+    fprintf(stderr, "one linear solve: %.2f s (CPU %.2f), ordering %.2f, factor %.2f, solve %.3f, %.1f GFLOP\n",
             out.wall_s, out.cpu_s, s.analyse_s, s.factor_s, s.solve_s, s.factor_flops * 1e-9);
     free(b);
     solver_destroy(&t);

@@ -83,7 +83,8 @@ static void units_and_axes_are_changed_only_when_told(void **state)
     err e = {0};
     /* the same box in RAS metres, without a tag */
     FILE *f = fopen("metres.off", "wb");
-    fputs("OFF\n4 4 0\n-0.08 -0.1 -0.12\n0.08 -0.1 -0.12\n0 0.1 -0.12\n0 0 0.12\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n", f);
+    fputs("OFF\n4 4 0\n-0.08 -0.1 -0.12\n0.08 -0.1 -0.12\n0 0.1 -0.12\n0 0 0.12\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n",
+          f);
     fclose(f);
     assert_int_equal(system("rm -rf made"), 0);
     const char *rest = "--skull metres.off --mandible metres.off --frame ras -o made";
@@ -100,12 +101,14 @@ static void units_and_axes_are_changed_only_when_told(void **state)
     surface_free(&s);
 }
 
-/* A head of 200 mm around a skull and a jaw that are balls, with a tooth in each; label numbers of DentalSegmentator. */
+/* A head of 200 mm around a skull and a jaw that are balls, with a tooth in each; label numbers of DentalSegmentator.
+ */
 static void write_head(const char *path, bool named)
 {
     enum { N = 70 };
     err e = {0};
-    const double voxel = 3, at[5][4] = {{0, 0, 0, 95}, {0, 0, 30, 40}, {0, -10, -45, 25}, {0, -45, 8, 6}, {0, -45, -35, 6}};
+    const double voxel = 3,
+                 at[5][4] = {{0, 0, 0, 95}, {0, 0, 30, 40}, {0, -10, -45, 25}, {0, -45, 8, 6}, {0, -45, -35, 6}};
     const int label[5] = {0, 1, 2, 3, 4}; /* ball 0 is soft tissue: label 9 */
     uint8_t *value = NEW_ARRAY(uint8_t, N * N * N);
     for (int i = 0; i < N * N * N; i++) {

@@ -284,8 +284,7 @@ static void best_fit_finds_a_rigid_motion(void **state)
     double from[60], to[60];
     rigid turn = rigid_rotation((double[]){40, -80, 20}, (double[]){0.2, -1, 0.7}, 2.8);
     for (int k = 0; k < 20; k++) {
-        for (int c = 0; c < 3; c++)
-            from[3 * k + c] = 50 * block_random(&seed) * (c == 2 ? 0 : 1); /* in a plane */
+        for (int c = 0; c < 3; c++) from[3 * k + c] = 50 * block_random(&seed) * (c == 2 ? 0 : 1); /* in a plane */
         rigid_apply(&turn, from + 3 * k, to + 3 * k);
     }
     rigid fit = motion_fit(from, to, 20);

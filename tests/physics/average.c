@@ -32,8 +32,8 @@ static void set_up(setting *s, const block *b, double poisson, element_kind kind
     assert_ok(element_choose(&s->table[0].material, kind, &e));
     s->attach = attach_map_new(s->mesh.vertex_count, 0);
     hang(s, b);
-    s->problem = (equilibrium_problem){
-        .mesh = &s->mesh, .attach = &s->attach, .materials = s->table, .material_count = 1};
+    s->problem =
+        (equilibrium_problem){.mesh = &s->mesh, .attach = &s->attach, .materials = s->table, .material_count = 1};
     rest_motions(s->problem.motion);
 }
 
@@ -239,11 +239,10 @@ static void gradients_and_factors_agree(void **state)
         assert_ok(equilibrium_solve(&s.problem, &params, &q[k], &e));
         assert_int_equal(q[k].outcome, SOLVED);
     }
-    print_message(
-        "%lld unknowns, averaged and linear layers: factors %d iterations, gradients %d with %d of their own "
-        "and %d preconditioners\n",
-        (long long)q[0].unknown_count, q[0].iterations, q[1].iterations, q[1].cg_iterations,
-        q[1].preconditioners);
+    print_message("%lld unknowns, averaged and linear layers: factors %d iterations, gradients %d with %d of their own "
+                  "and %d preconditioners\n",
+                  (long long)q[0].unknown_count, q[0].iterations, q[1].iterations, q[1].cg_iterations,
+                  q[1].preconditioners);
     assert_true(q[1].factorisations == 0 && q[1].preconditioners > 0);
     for (int32_t i = 0; i < 3 * q[0].node_count; i++) assert_near(q[0].xyz[i], q[1].xyz[i], 1e-6);
     equilibrium_free(&q[0]);
@@ -280,11 +279,10 @@ static void averages_lock_less_near_incompressibility(void **state)
             q[k] = pressed_energy(2 << k, poisson[n], ELEMENT_AVERAGED);
         }
         double fine = q[2]; /* below every plain energy, which are upper bounds of the true one */
-        print_message(
-            "nu %.3f: reference %.1f uJ (averaged, 8 cells); error with 2, 4, 8 cells: plain %+.0f %+.0f "
-            "%+.0f %%, averaged %+.0f %+.0f %%\n",
-            poisson[n], fine, 100 * (p[0] / fine - 1), 100 * (p[1] / fine - 1), 100 * (p[2] / fine - 1),
-            100 * (q[0] / fine - 1), 100 * (q[1] / fine - 1));
+        print_message("nu %.3f: reference %.1f uJ (averaged, 8 cells); error with 2, 4, 8 cells: plain %+.0f %+.0f "
+                      "%+.0f %%, averaged %+.0f %+.0f %%\n",
+                      poisson[n], fine, 100 * (p[0] / fine - 1), 100 * (p[1] / fine - 1), 100 * (p[2] / fine - 1),
+                      100 * (q[0] / fine - 1), 100 * (q[1] / fine - 1));
         for (int k = 0; k < 3; k++) assert_true(q[k] < p[k]);
         assert_true(p[0] > p[1] && p[1] > p[2] && q[0] > q[1] && q[1] > q[2]);
         /* half the fineness is enough to beat the plain element */

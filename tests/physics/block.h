@@ -29,8 +29,7 @@ static inline int32_t block_node(const block *b, int i, int j, int k)
 
 static inline tetmesh block_mesh(const block *b)
 {
-    static const int six[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
-                                  {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+    static const int six[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
     static const int five[5][4] = {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
     assert(b->tets == 6 || b->tets == 5);
     tetmesh m = tetmesh_new((b->nx + 1) * (b->ny + 1) * (b->nz + 1), b->tets * b->nx * b->ny * b->nz);
@@ -42,8 +41,7 @@ static inline tetmesh block_mesh(const block *b)
                 double *x = m.xyz + 3 * (size_t)block_node(b, i, j, k);
                 int at[3] = {i, j, k};
                 bool inner = i > 0 && j > 0 && k > 0 && i < b->nx && j < b->ny && k < b->nz;
-                for (int c = 0; c < 3; c++)
-                    x[c] = cell[c] * (at[c] + (inner ? b->jitter * block_random(&seed) : 0));
+                for (int c = 0; c < 3; c++) x[c] = cell[c] * (at[c] + (inner ? b->jitter * block_random(&seed) : 0));
             }
     int32_t t = 0;
     for (int k = 0; k < b->nz; k++)
@@ -96,8 +94,8 @@ static inline tetmesh slab_mesh(int nx, int ny, int nz, attach_map *a)
     return m;
 }
 
-/* A flat plate of 240 x 160 x 12 mm on bone, large against its thickness: a patch of 32 x 32 mm in its middle belongs to
- * the maxilla, with a free ring of 8 mm around it. */
+/* A flat plate of 240 x 160 x 12 mm on bone, large against its thickness: a patch of 32 x 32 mm in its middle belongs
+ * to the maxilla, with a free ring of 8 mm around it. */
 static inline tetmesh plate_mesh(int nx, int ny, int nz, attach_map *a)
 {
     block b = {nx, ny, nz, {240, 160, 12}, 6, 0};

@@ -9,10 +9,7 @@
 
 static const double young = 15, nu = 0.4;
 
-static double poisson_of(material_model model)
-{
-    return model == MATERIAL_ARAP ? 0 : nu;
-}
+static double poisson_of(material_model model) { return model == MATERIAL_ARAP ? 0 : nu; }
 
 /* First Piola-Kirchhoff stress along principal stretch 0 of s[3], kPa. */
 static double principal_stress(material_model model, double s0, double s1, double s2)
@@ -24,19 +21,12 @@ static double principal_stress(material_model model, double s0, double s1, doubl
         double mu = 4 * m / 3, la = l + 5 * m / 6, rest = 1 + 3 * mu / (4 * la);
         return mu * (1 - 1 / (I + 1)) * s0 + la * (J - rest) * c;
     }
-    case MATERIAL_SNH:
-        return m * s0 + (l + m) * (J - 1 - m / (l + m)) * c;
-    case MATERIAL_NH_LN:
-        return m * (s0 - 1 / s0) + l * log(J) / s0;
-    case MATERIAL_NH_ISO:
-        return m * pow(J, -2.0 / 3) * (s0 - I / (3 * s0)) + (l + 2 * m / 3) * (J - 1) * c;
-    case MATERIAL_FIXED_COROTATED:
-        return 2 * m * (s0 - 1) + l * (J - 1) * c;
-    case MATERIAL_ARAP:
-        return 2 * m * (s0 - 1);
-    default:
-        fail();
-        return 0;
+    case MATERIAL_SNH: return m * s0 + (l + m) * (J - 1 - m / (l + m)) * c;
+    case MATERIAL_NH_LN: return m * (s0 - 1 / s0) + l * log(J) / s0;
+    case MATERIAL_NH_ISO: return m * pow(J, -2.0 / 3) * (s0 - I / (3 * s0)) + (l + 2 * m / 3) * (J - 1) * c;
+    case MATERIAL_FIXED_COROTATED: return 2 * m * (s0 - 1) + l * (J - 1) * c;
+    case MATERIAL_ARAP: return 2 * m * (s0 - 1);
+    default: fail(); return 0;
     }
 }
 
@@ -54,8 +44,7 @@ static double free_stretch(material_model model, double pulled, int sides)
     double low = 0.05, high = 3;
     for (int k = 0; k < 100; k++) {
         double t = (low + high) / 2;
-        double stress =
-            sides == 2 ? principal_stress(model, t, t, pulled) : principal_stress(model, t, pulled, pulled);
+        double stress = sides == 2 ? principal_stress(model, t, t, pulled) : principal_stress(model, t, pulled, pulled);
         if (stress > 0)
             high = t;
         else
@@ -172,11 +161,9 @@ static double bend(material_model model, double R, double r, double slope)
 {
     const double h = 1e-5;
     double t = r / R, p0 = principal_stress(model, slope, t, t), p1 = principal_stress(model, t, t, slope);
-    double by_slope =
-        (principal_stress(model, slope + h, t, t) - principal_stress(model, slope - h, t, t)) / (2 * h);
+    double by_slope = (principal_stress(model, slope + h, t, t) - principal_stress(model, slope - h, t, t)) / (2 * h);
     double by_t =
-        (principal_stress(model, slope, t + h, t + h) - principal_stress(model, slope, t - h, t - h)) /
-        (2 * h);
+        (principal_stress(model, slope, t + h, t + h) - principal_stress(model, slope, t - h, t - h)) / (2 * h);
     return (-2 * (p0 - p1) / R - by_t * (slope - t) / R) / by_slope;
 }
 
@@ -301,15 +288,15 @@ static void a_thick_sphere_meets_the_radial_equation(void **state)
         assert_near(shoot((material_model)model, slope, outer), outer, 1e-9);
         double coarse = sphere_error((material_model)model, 2, slope),
                fine = sphere_error((material_model)model, 4, slope);
-        print_message(
-            "%s: off the radial equation by %.4f and, halved, %.4f mm of %.0f mm pushed: order %.2f\n",
-            material_model_name((material_model)model), coarse, fine, push, log2(coarse / fine));
+        print_message("%s: off the radial equation by %.4f and, halved, %.4f mm of %.0f mm pushed: order %.2f\n",
+                      material_model_name((material_model)model), coarse, fine, push, log2(coarse / fine));
         assert_true(fine < 0.05 * push);
         assert_true(log2(coarse / fine) > 1.5);
         keep_worst(&worst, fine);
         order = fmin(order, log2(coarse / fine));
     }
-    evidence("thick sphere, inner wall pushed out 2 mm, 4 cells: root mean square error against the radial equation", worst, "mm");
+    evidence("thick sphere, inner wall pushed out 2 mm, 4 cells: root mean square error against the radial equation",
+             worst, "mm");
     evidence("the same: least order of convergence of a material", order, "-");
 }
 

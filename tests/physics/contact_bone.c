@@ -44,8 +44,8 @@ static void a_pressed_block_carries_what_elasticity_says(void **state)
     material_stress(&s.body.table.material, F, P);
     assert_true(depth > 0 && depth < 0.1);
     assert_near(f[2], -P[8] * 20 * 16, 0.02 * fabs(f[2]));
-    evidence("contact: a block pressed on a plane, force against the closed form, off by", fabs(f[2] / (-P[8] * 20 * 16) - 1),
-             "-");
+    evidence("contact: a block pressed on a plane, force against the closed form, off by",
+             fabs(f[2] / (-P[8] * 20 * 16) - 1), "-");
     assert_near(f[2] + q.segment_force_mn[SEGMENT_MAXILLA][2], 0, 1e-6 * f[2]);
     assert_near(q.contact.bone_area_mm2, 20 * 16, 1e-9);
     assert_near(q.contact.pressure_kpa, f[2] / (20 * 16), 0.02 * q.contact.pressure_kpa);

@@ -7,9 +7,9 @@
 static void derivatives_of_known_shapes_are_exact(void **state)
 {
     (void)state;
-    static const known_bone bones[6] = {{KNOWN_PLANE, {1, 2, 0.3}, 0, 0},     {KNOWN_PLATE, {0, 0, 0}, 0.3, 0.5},
-                                        {KNOWN_BALL, {0, 1, -3}, 4, 0},       {KNOWN_EDGE, {0, 0, 0}, 0, 0.7},
-                                        {KNOWN_CUSPS, {0.5, 0.2, 1}, 2, 0},   {KNOWN_TEETH, {-0.3, 1, 1}, 8, 0.25}};
+    static const known_bone bones[6] = {{KNOWN_PLANE, {1, 2, 0.3}, 0, 0},   {KNOWN_PLATE, {0, 0, 0}, 0.3, 0.5},
+                                        {KNOWN_BALL, {0, 1, -3}, 4, 0},     {KNOWN_EDGE, {0, 0, 0}, 0, 0.7},
+                                        {KNOWN_CUSPS, {0.5, 0.2, 1}, 2, 0}, {KNOWN_TEETH, {-0.3, 1, 1}, 8, 0.25}};
     double h = 1e-5;
     uint64_t seed = 9;
     for (int k = 0; k < 6; k++) {
@@ -22,7 +22,8 @@ static void derivatives_of_known_shapes_are_exact(void **state)
                 double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]}, g[2][3];
                 up[c] += h;
                 down[c] -= h;
-                double slope = shape.distance(shape.context, up, g[0], NULL) - shape.distance(shape.context, down, g[1], NULL);
+                double slope =
+                    shape.distance(shape.context, up, g[0], NULL) - shape.distance(shape.context, down, g[1], NULL);
                 assert_near(slope / (2 * h), grad[c], 1e-7);
                 for (int r = 0; r < 3; r++) {
                     worst = fmax(worst, fabs((g[0][r] - g[1][r]) / (2 * h) - hess[3 * r + c]));
@@ -33,8 +34,8 @@ static void derivatives_of_known_shapes_are_exact(void **state)
             if (!shape.leave(shape.context, x, (double[]){0.36, 0.48, 0.8}, 6, hit, normal)) continue;
             off = fmax(off, fabs(shape.distance(shape.context, hit, grad, NULL)));
         }
-        printf("kind %d: Hessian off by %.1e, largest %.3g; ways out end %.1e mm off the surface\n", bones[k].kind, worst,
-               sharpest, off);
+        printf("kind %d: Hessian off by %.1e, largest %.3g; ways out end %.1e mm off the surface\n", bones[k].kind,
+               worst, sharpest, off);
         assert_true(worst <= 1e-3 * sharpest && off < 1e-9); /* the third derivative jumps where rounding ends */
     }
 }

@@ -65,8 +65,8 @@ static void a_shell_turns_on_a_ball_as_one_piece(void **state)
             rigid_apply(&turn, s.mesh.xyz + 3 * (size_t)v, want);
             worst = fmax(worst, vec_distance(want, q.xyz + 3 * (size_t)v));
         }
-        printf("%s: off by %.1e mm, %.3g uJ, %d iterations\n", with ? "on the ball" : "on tangent planes", worst, q.energy_uj,
-               q.iterations);
+        printf("%s: off by %.1e mm, %.3g uJ, %d iterations\n", with ? "on the ball" : "on tangent planes", worst,
+               q.energy_uj, q.iterations);
         if (with) { /* a move of 9 mm on the ball: nothing is strained */
             assert_near(worst, 0, 1e-4);
             assert_near(q.energy_uj, 0, 1e-6);
@@ -93,7 +93,8 @@ static void the_bend_of_a_level_is_in_the_stiffness(void **state)
     assembly a;
     shell_on_ball(&s, &b);
     size_t n = 3 * (size_t)s.mesh.vertex_count;
-    double *force = NEW_ARRAY(double, n), *w = NEW_ARRAY(double, n), *at = NEW_ARRAY(double, n), side[3], h = 1e-3, want = 0;
+    double *force = NEW_ARRAY(double, n), *w = NEW_ARRAY(double, n), *at = NEW_ARRAY(double, n), side[3], h = 1e-3,
+           want = 0;
     assert_ok(contact_make(&s.mesh, &s.attach, &touch, 15, &c, &e));
     assert_ok(elements_make(&s.mesh, &s.table, 1, &el, &e));
     assert_ok(boundary_make(&s.mesh, &s.attach, &bound, &e));
@@ -118,7 +119,8 @@ static void the_bend_of_a_level_is_in_the_stiffness(void **state)
     contact_stiffness(c, s.mesh.xyz, force, true, &a);
     assembly_multiply(&a, w, at);
     for (size_t i = 0; i < n; i++) want += w[i] * at[i];
-    printf("second derivative along the ball %.8g, by differences %.8g\n", want, (side[0] - 2 * side[1] + side[2]) / (h * h));
+    printf("second derivative along the ball %.8g, by differences %.8g\n", want,
+           (side[0] - 2 * side[1] + side[2]) / (h * h));
     assert_near((side[0] - 2 * side[1] + side[2]) / (h * h), want, 1e-5 * fabs(want));
     assembly_free(&a);
     boundary_free(&bound);
@@ -186,7 +188,8 @@ static void a_ball_pressed_into_tissue_stays_out_of_it_and_its_work_is_the_energ
             vec_sub(q.xyz + 3 * (size_t)under.bottom[i], (double[]){0, 0, 4}, x);
             assert_true(under.shape.distance(&b, x, grad, NULL) > -0.1);
         }
-        printf("%d nodes touch, %.3f mm deep, %d iterations\n", q.contact.active_nodes, q.contact.depth_mm, q.iterations);
+        printf("%d nodes touch, %.3f mm deep, %d iterations\n", q.contact.active_nodes, q.contact.depth_mm,
+               q.iterations);
         equilibrium_free(&q);
     }
     printf("force %.6g mN, by energy %.6g\n", force, (energy[2] - energy[0]) / (2 * h));
@@ -257,8 +260,10 @@ static void every_thread_count_gives_the_same_bits(void **state)
         parallel_set_threads(counts[k]);
         equilibrium q = solve(&s, &params);
         if (k) assert_memory_equal(q.xyz, first.xyz, 3 * (size_t)q.node_count * sizeof *q.xyz);
-        if (k) equilibrium_free(&q);
-        else first = q;
+        if (k)
+            equilibrium_free(&q);
+        else
+            first = q;
     }
     parallel_set_threads(0);
     equilibrium_free(&first);

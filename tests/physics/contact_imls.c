@@ -55,9 +55,8 @@ static surface plane_surface(double half, int cells)
 static surface sphere_surface(double radius, int n, double *edge)
 {
     static const double g = 1.618033988749895;
-    static const double corner[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
-                                         {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                                         {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    static const double corner[12][3] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                         {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     static const int32_t face[60] = {0, 11, 5,  0, 5,  1, 0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
                                      4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
                                      6, 8,  3,  8, 9,  4, 9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1};
@@ -144,8 +143,8 @@ static void distance_to_a_sphere_is_inflated_by_the_support_as_measured(void **s
             low = fmin(low, vec_norm(v.grad));
             high = fmax(high, vec_norm(v.grad));
         }
-        printf("support %.1f edges: bias %.4f edges (table %.4f), |grad d| %.3f to %.3f\n", support[n], mean,
-               want, low, high);
+        printf("support %.1f edges: bias %.4f edges (table %.4f), |grad d| %.3f to %.3f\n", support[n], mean, want, low,
+               high);
         assert_near(mean, want, 0.15 * fabs(want) + 0.003);
         assert_true(low > 0.97 && high < 1.1);
         imls_free(&cloud);

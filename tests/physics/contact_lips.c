@@ -30,8 +30,8 @@ static void lips_press_each_other_and_part(void **state)
     touching_free(&s);
 }
 
-/* The lower lip's faces end in the middle; beyond them the upper lip sinks in by 9 mm, which is deep where it lay over them
- * at rest. */
+/* The lower lip's faces end in the middle; beyond them the upper lip sinks in by 9 mm, which is deep where it lay over
+ * them at rest. */
 static void a_node_beside_a_lip_is_not_dragged_to_its_front(void **state)
 {
     (void)state;

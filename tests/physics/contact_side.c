@@ -3,8 +3,8 @@
 #include "geometry/parallel.h"
 #include "tests/physics/touching.h"
 
-/* A block held at its top over a plate as thin as an incisor's edge. Without contact it would stay where it is, with its
- * lowest nodes below the plate once that has risen. */
+/* A block held at its top over a plate as thin as an incisor's edge. Without contact it would stay where it is, with
+ * its lowest nodes below the plate once that has risen. */
 static void block_over_plate(touching *s, double thick)
 {
     block b = {5, 4, 4, {20, 16, 12}, 6, 0.15};
@@ -35,8 +35,8 @@ static void no_tissue_passes_a_thin_bone(void **state)
             equilibrium q = solve_touching(&s, "plate"), again;
             double lowest = HUGE_VAL;
             for (int32_t i = 0; i < s.setup.extra_count; i++) lowest = fmin(lowest, q.xyz[3 * s.setup.extra[i] + 2]);
-            printf("%.1f mm thick, risen %.0f mm: lowest node %.3f mm over it, %d guards, %d passed\n", thick[t], rise[k],
-                   lowest - rise[k] + 0.2, q.contact.guards, q.contact.passed);
+            printf("%.1f mm thick, risen %.0f mm: lowest node %.3f mm over it, %d guards, %d passed\n", thick[t],
+                   rise[k], lowest - rise[k] + 0.2, q.contact.guards, q.contact.passed);
             assert_true(lowest > rise[k] - 0.2 - 0.1);
             assert_int_equal(q.contact.passed, 0);
             assert_int_equal(q.contact.guards, rise[k] > thick[t] + 0.5 ? s.setup.extra_count : 0);

@@ -10,8 +10,8 @@ static double order_of(double poisson, element_kind kind)
     double order = log2(error[1] / error[2]);
     print_message("nu %.3f, %s: L2 error %.3g, %.3g, %.3g mm with %d, %d, %d cells, order %.2f then %.2f, "
                   "%d Newton steps\n",
-                  poisson, kind == ELEMENT_AVERAGED ? "averaged" : "linear", error[0], error[1], error[2],
-                  cells, 2 * cells, 4 * cells, log2(error[0] / error[1]), order, iterations[2]);
+                  poisson, kind == ELEMENT_AVERAGED ? "averaged" : "linear", error[0], error[1], error[2], cells,
+                  2 * cells, 4 * cells, log2(error[0] / error[1]), order, iterations[2]);
     char what[96];
     snprintf(what, sizeof what, "manufactured large deformation, Poisson %.3g, %s: order in L2", poisson,
              kind == ELEMENT_AVERAGED ? "averaged volumes" : "linear tets");

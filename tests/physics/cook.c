@@ -44,8 +44,7 @@ static panel make_panel(int cells, int tets)
         vec_sub(x[1], x[0], u);
         vec_sub(x[2], x[0], w);
         vec_cross(u, w, area);
-        for (int k = 0; right && k < 3; k++)
-            p.load[3 * (size_t)face[3 * f + k] + 1] += vec_norm(area) / 6 / 16;
+        for (int k = 0; right && k < 3; k++) p.load[3 * (size_t)face[3 * f + k] + 1] += vec_norm(area) / 6 / 16;
     }
     free(face);
     return p;
@@ -65,11 +64,9 @@ static double tip_rise(int cells, int tets, element_kind kind)
     double young = shear_kpa * (3 * lame_kpa + 2 * shear_kpa) / (lame_kpa + shear_kpa),
            *x = NEW_ARRAY(double, 3 * (size_t)p.mesh.vertex_count);
     region_material table = {.region = REGION_ANY};
-    assert_ok(
-        material_make(MATERIAL_SNH_LOG, young, lame_kpa / (2 * (lame_kpa + shear_kpa)), &table.material, &e));
+    assert_ok(material_make(MATERIAL_SNH_LOG, young, lame_kpa / (2 * (lame_kpa + shear_kpa)), &table.material, &e));
     assert_ok(element_choose(&table.material, kind, &e));
-    equilibrium_problem problem = {
-        .mesh = &p.mesh, .attach = &p.attach, .materials = &table, .material_count = 1};
+    equilibrium_problem problem = {.mesh = &p.mesh, .attach = &p.attach, .materials = &table, .material_count = 1};
     solver *t = NULL;
     assert_ok(solver_create(&problem, 1, &t, &e));
     loaded_solve(t, p.load, 0, x);
@@ -89,9 +86,8 @@ static void averages_find_the_rise_of_the_tip(void **state)
             for (int average = 0; average < 2; average++)
                 off[average][k] =
                     1 - tip_rise(4 << k, tets, average ? ELEMENT_AVERAGED : ELEMENT_LINEAR) / reference_mm;
-            print_message(
-                "%2d cells of %d tets: missing of the reference: linear %.1f %%, averaged %.1f %%\n", 4 << k,
-                tets, 100 * off[0][k], 100 * off[1][k]);
+            print_message("%2d cells of %d tets: missing of the reference: linear %.1f %%, averaged %.1f %%\n", 4 << k,
+                          tets, 100 * off[0][k], 100 * off[1][k]);
         }
         for (int k = 1; k < 4; k++) assert_true(off[1][k] > 0 && off[1][k] < 0.75 * off[1][k - 1]);
         assert_true(off[1][3] < 0.08 && off[1][2] < off[0][3]);
@@ -113,8 +109,7 @@ static double bent_energy(int cells, int tets, element_kind kind)
     assert_ok(element_choose(&table.material, kind, &e));
     for (int32_t v = 0; v < p.mesh.vertex_count; v++)
         if (p.mesh.xyz[3 * (size_t)v] == 48) tie(&p.attach, v, SEGMENT_MAXILLA);
-    equilibrium_problem problem = {
-        .mesh = &p.mesh, .attach = &p.attach, .materials = &table, .material_count = 1};
+    equilibrium_problem problem = {.mesh = &p.mesh, .attach = &p.attach, .materials = &table, .material_count = 1};
     rest_motions(problem.motion);
     problem.motion[SEGMENT_MAXILLA] = rigid_translation((double[]){0, 12, 0});
     solve_params params = solve_params_default();
@@ -135,10 +130,9 @@ static void averages_bend_as_far_as_they_should(void **state)
         double over[2][3];
         for (int k = 0; k < 3; k++) {
             for (int average = 0; average < 2; average++)
-                over[average][k] =
-                    bent_energy(8 << k, tets, average ? ELEMENT_AVERAGED : ELEMENT_LINEAR) / 191.4 - 1;
-            print_message("%2d cells of %d tets: energy too high: linear %.2f %%, averaged %.2f %%\n", 8 << k,
-                          tets, 100 * over[0][k], 100 * over[1][k]);
+                over[average][k] = bent_energy(8 << k, tets, average ? ELEMENT_AVERAGED : ELEMENT_LINEAR) / 191.4 - 1;
+            print_message("%2d cells of %d tets: energy too high: linear %.2f %%, averaged %.2f %%\n", 8 << k, tets,
+                          100 * over[0][k], 100 * over[1][k]);
         }
         for (int k = 1; k < 3; k++) assert_true(over[1][k] > 0 && over[1][k] < 0.55 * over[1][k - 1]);
         assert_true(over[1][2] < 0.01 && over[1][2] < 0.5 * over[0][2]);

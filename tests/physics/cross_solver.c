@@ -59,8 +59,7 @@ static double compare(const slab *s, material_model model, double poisson, const
     err e = {0};
     region_material table = {REGION_ANY, {0}};
     assert_ok(material_make(model, 15, poisson, &table.material, &e));
-    equilibrium_problem problem = {
-        .mesh = &s->mesh, .attach = &s->attach, .materials = &table, .material_count = 1};
+    equilibrium_problem problem = {.mesh = &s->mesh, .attach = &s->attach, .materials = &table, .material_count = 1};
     memcpy(problem.motion, s->motion, sizeof problem.motion);
     int32_t rows;
     double *want = read_columns(file, 3, &rows), worst = 0, all = 0;
@@ -72,16 +71,15 @@ static double compare(const slab *s, material_model model, double poisson, const
         solve_params params = solve_params_default();
         params.reuse_factor = way > 0;
         params.linear = way == 2 ? LINEAR_GRADIENTS : LINEAR_FACTOR;
-        if (model > MATERIAL_SNH)
-            params.rel_tol = 1e-10; /* their own residual is small: 1e-8 leaves 2e-6 mm */
+        if (model > MATERIAL_SNH) params.rel_tol = 1e-10; /* their own residual is small: 1e-8 leaves 2e-6 mm */
         assert_ok(equilibrium_solve(&problem, &params, &q, &e));
         assert_int_equal(q.outcome, SOLVED);
         worst = 0;
         for (int32_t i = 0; i < 3 * rows; i++) worst = fmax(worst, fabs(q.xyz[i] - s->mesh.xyz[i] - want[i]));
         print_message("%s nu %.2f %s: %d iterations, %d factorisations, %.2f s, min J %.4f, largest "
                       "difference %.2g mm\n",
-                      material_model_name(model), poisson, way_name[way], q.iterations, q.factorisations,
-                      q.total_s, q.extremes.min_j, worst);
+                      material_model_name(model), poisson, way_name[way], q.iterations, q.factorisations, q.total_s,
+                      q.extremes.min_j, worst);
         assert_true(keep_worst(&all, worst) < tol);
         equilibrium_free(&q);
     }

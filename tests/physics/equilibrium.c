@@ -26,8 +26,7 @@ static void an_affine_boundary_gives_an_affine_inside(void **state)
         solver *t = NULL;
         assert_ok(solver_create(&s.problem, 1, &t, &e));
         for (int32_t v = 0; v < s.mesh.vertex_count; v++)
-            if (s.attach.kind[v] == NODE_TIED)
-                mat_apply(A, s.mesh.xyz + 3 * (size_t)v, t->b.origin + 3 * (size_t)v);
+            if (s.attach.kind[v] == NODE_TIED) mat_apply(A, s.mesh.xyz + 3 * (size_t)v, t->b.origin + 3 * (size_t)v);
         solve_params params = solve_params_default();
         equilibrium q = {0};
         descent d;

@@ -12,11 +12,10 @@ static void a_block_compressed_to_half_is_solved(void **state)
         solve_params params = solve_params_default();
         params.reuse_factor = reuse;
         equilibrium q = solve(&s, &params);
-        print_message(
-            "compressed to 50 %%, %s: %s, %d iterations, %d factorisations, %d loads, %.2f s, min J %.4f, "
-            "%d inverted, energy %.10g uJ\n",
-            reuse ? "reused factors" : "Newton", solve_outcome_text(q.outcome), q.iterations,
-            q.factorisations, q.loads, q.total_s, q.extremes.min_j, q.extremes.inverted_count, q.energy_uj);
+        print_message("compressed to 50 %%, %s: %s, %d iterations, %d factorisations, %d loads, %.2f s, min J %.4f, "
+                      "%d inverted, energy %.10g uJ\n",
+                      reuse ? "reused factors" : "Newton", solve_outcome_text(q.outcome), q.iterations,
+                      q.factorisations, q.loads, q.total_s, q.extremes.min_j, q.extremes.inverted_count, q.energy_uj);
         assert_int_equal(q.outcome, SOLVED);
         assert_true(q.residual_mn <= q.tolerance_mn);
         assert_true(q.energy_uj > 0);
@@ -38,12 +37,11 @@ static void a_block_compressed_to_a_fifth_is_solved_in_one_load(void **state)
         equilibrium q = solve(&s, &params);
         int kinds[HESSIAN_SHIFTED + 1] = {0};
         for (int32_t i = 0; i < q.record_count; i++) kinds[q.record[i].hessian] += q.record[i].iteration > 0;
-        print_message(
-            "compressed to 20 %%, %s: %s, %d iterations (%d true, %d reused, %d blended, %d clamped), "
-            "%d factorisations, %.2f s, min J %.4f, %d inverted, energy %.10g uJ\n",
-            reuse ? "reused factors" : "Newton", solve_outcome_text(q.outcome), q.iterations,
-            kinds[HESSIAN_TRUE], kinds[HESSIAN_REUSED], kinds[HESSIAN_BLENDED], kinds[HESSIAN_PROJECTED],
-            q.factorisations, q.total_s, q.extremes.min_j, q.extremes.inverted_count, q.energy_uj);
+        print_message("compressed to 20 %%, %s: %s, %d iterations (%d true, %d reused, %d blended, %d clamped), "
+                      "%d factorisations, %.2f s, min J %.4f, %d inverted, energy %.10g uJ\n",
+                      reuse ? "reused factors" : "Newton", solve_outcome_text(q.outcome), q.iterations,
+                      kinds[HESSIAN_TRUE], kinds[HESSIAN_REUSED], kinds[HESSIAN_BLENDED], kinds[HESSIAN_PROJECTED],
+                      q.factorisations, q.total_s, q.extremes.min_j, q.extremes.inverted_count, q.energy_uj);
         assert_int_equal(q.outcome, SOLVED);
         assert_true(q.residual_mn <= q.tolerance_mn);
         assert_int_equal(q.halvings, 0);
@@ -70,10 +68,8 @@ static void layers_of_any_stiffness_contrast_are_solved(void **state)
         int32_t layer = s.mesh.tet_count / 3;
         for (int32_t t = layer; t < 2 * layer; t++) s.mesh.region[t] = 1;
         wire(&s);
-        s.problem.motion[SEGMENT_MAXILLA] =
-            rigid_rotation((double[]){15, 15, 24}, (double[]){1, 0.5, 0}, 0.15);
-        vec_add(s.problem.motion[SEGMENT_MAXILLA].t, (double[]){2, 4, -3},
-                s.problem.motion[SEGMENT_MAXILLA].t);
+        s.problem.motion[SEGMENT_MAXILLA] = rigid_rotation((double[]){15, 15, 24}, (double[]){1, 0.5, 0}, 0.15);
+        vec_add(s.problem.motion[SEGMENT_MAXILLA].t, (double[]){2, 4, -3}, s.problem.motion[SEGMENT_MAXILLA].t);
         region_material table[2] = {{0, {0}}, {1, {0}}};
         s.problem.materials = table;
         s.problem.material_count = 2;
@@ -93,10 +89,9 @@ static void layers_of_any_stiffness_contrast_are_solved(void **state)
                 rigid_apply(&fit, s.mesh.xyz + 3 * (size_t)v, at);
                 bend[k] = fmax(bend[k], vec_distance(at, q.xyz + 3 * (size_t)v));
             }
-            print_message(
-                "%s, contrast %.0e: %s, %d iterations, %d factorisations, the plate bends by %.3g mm\n",
-                material_model_name(models[n]), contrast, solve_outcome_text(q.outcome), q.iterations,
-                q.factorisations, bend[k]);
+            print_message("%s, contrast %.0e: %s, %d iterations, %d factorisations, the plate bends by %.3g mm\n",
+                          material_model_name(models[n]), contrast, solve_outcome_text(q.outcome), q.iterations,
+                          q.factorisations, bend[k]);
             assert_int_equal(q.outcome, SOLVED);
             assert_true(q.residual_mn <= q.tolerance_mn);
             assert_true(q.imbalance < 1e-6);
@@ -150,10 +145,7 @@ static void a_failed_load_is_tried_again_in_smaller_steps(void **state)
     tear_down(&s);
 }
 
-static bool stop_at_third(void *context)
-{
-    return ++*(int *)context == 3;
-}
+static bool stop_at_third(void *context) { return ++*(int *)context == 3; }
 static void count_record(const newton_record *r, void *context)
 {
     (void)r;

@@ -264,8 +264,7 @@ static void what_buckles_or_is_stiff_in_places_is_solved(void **state)
     params.linear = LINEAR_GRADIENTS;
     equilibrium q = solve(&s, &params);
     print_message("compressed to 20 %%: %s, %d iterations, %d of gradients, %d factorisations, min J %.4f\n",
-                  solve_outcome_text(q.outcome), q.iterations, q.cg_iterations, q.factorisations,
-                  q.extremes.min_j);
+                  solve_outcome_text(q.outcome), q.iterations, q.cg_iterations, q.factorisations, q.extremes.min_j);
     assert_int_equal(q.outcome, SOLVED);
     assert_true(q.residual_mn <= q.tolerance_mn);
     equilibrium_free(&q);
@@ -280,11 +279,10 @@ static void what_buckles_or_is_stiff_in_places_is_solved(void **state)
     equilibrium want = solve(&s, &params);
     assert_int_equal(q.outcome, SOLVED);
     assert_int_equal(want.outcome, SOLVED);
-    print_message(
-        "a layer 1e6 times stiffer: %d iterations, %d of gradients, %d factorisations (factors: %d, "
-        "%d), %.2g mm apart\n",
-        q.iterations, q.cg_iterations, q.factorisations, want.iterations, want.factorisations,
-        apart(&q, &want));
+    print_message("a layer 1e6 times stiffer: %d iterations, %d of gradients, %d factorisations (factors: %d, "
+                  "%d), %.2g mm apart\n",
+                  q.iterations, q.cg_iterations, q.factorisations, want.iterations, want.factorisations,
+                  apart(&q, &want));
     assert_true(apart(&q, &want) < 1e-3); /* 1e-8 of a residual that holds the stiff layer's forces */
     equilibrium_free(&q);
     equilibrium_free(&want);

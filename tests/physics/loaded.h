@@ -29,8 +29,7 @@ static inline int loaded_solve(solver *t, const double *load, int loads, double 
     assert_ok(solver_order(t, &e));
     boundary_place(&t->b, z, x);
     for (int part = 1; part <= loads || part == 1; part++) {
-        double share = loads ? (double)part / loads : 1, now = loaded_residual(t, load, share, x, g),
-               first = now;
+        double share = loads ? (double)part / loads : 1, now = loaded_residual(t, load, share, x, g), first = now;
         for (steps = 0; now > 1e-16 * first && steps < most; steps++) {
             bool positive;
             assembly_stiffness(&t->a, x, PROJECTION_NONE);

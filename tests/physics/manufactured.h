@@ -50,8 +50,7 @@ enum { QUADRATURE = 14 };
  * point q in tet t; returns the weight, of 1 in all. */
 static inline double quadrature_point(const tetmesh *m, int32_t t, int q, double N[4], double X[3])
 {
-    static const double near[2] = {0.31088591926330060980, 0.09273525031089122640},
-                        edge = 0.45449629587435035051,
+    static const double near[2] = {0.31088591926330060980, 0.09273525031089122640}, edge = 0.45449629587435035051,
                         weight[3] = {0.11268792571801585080, 0.07349304311636194955, 0.04254602077708146643};
     static const int pair[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
     for (int k = 0; k < 4; k++) {

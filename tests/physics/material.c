@@ -14,10 +14,7 @@ static material make(material_model model, double poisson)
     return m;
 }
 
-static bool may_invert(material_model model)
-{
-    return model <= MATERIAL_SNH || model >= MATERIAL_IJ_COUNT;
-}
+static bool may_invert(material_model model) { return model <= MATERIAL_SNH || model >= MATERIAL_IJ_COUNT; }
 
 static const double poissons[] = {-0.3, 0, 0.3, 0.45, 0.49, 0.499};
 
@@ -65,7 +62,8 @@ static void forces_are_the_derivative_of_energy_and_hessian_of_forces(void **sta
                 }
             }
     assert_true(inverted > 10);
-    evidence("stress and stiffness of every material against differences of its energy, relative to mu + lambda", worst, "-");
+    evidence("stress and stiffness of every material against differences of its energy, relative to mu + lambda", worst,
+             "-");
 }
 
 static void rest_has_no_stress_and_no_energy_at_any_rotation(void **state)
@@ -226,8 +224,7 @@ static void element_forces_and_stiffness_are_derivatives(void **state)
                 for (int r = 0; r < 3; r++)
                     for (int s = 0; s < 3; s++)
                         sum += el.volume[0] * el.gradient[3 * element_pair[p][0] + r] *
-                               H[9 * (3 * (i / 3) + r) + 3 * (i % 3) + s] *
-                               el.gradient[3 * element_pair[p][1] + s];
+                               H[9 * (3 * (i / 3) + r) + 3 * (i % 3) + s] * el.gradient[3 * element_pair[p][1] + s];
                 assert_near(K[9 * p + i], sum, 1e-11 * scale);
             }
         elements_free(&el);
@@ -291,8 +288,7 @@ static void shape_targeting_pulls_to_its_target(void **state)
                     material_stress(&m, G, Q[side]);
                 }
                 assert_near((psi[0] - psi[1]) / (2 * h), P[i], 1e-6 * scale);
-                for (int j = 0; j < 9; j++)
-                    assert_near((Q[0][j] - Q[1][j]) / (2 * h), H[9 * j + i], 1e-6 * scale);
+                for (int j = 0; j < 9; j++) assert_near((Q[0][j] - Q[1][j]) / (2 * h), H[9 * j + i], 1e-6 * scale);
             }
             /* 2 mu Id majorises the Hessian of the part without volume */
             if (model != MATERIAL_ARAP) continue;

@@ -18,8 +18,8 @@ static void plate_setting(setting *s, double poisson)
     s->table = (region_material){REGION_ANY, {0}};
     assert_ok(material_make(MATERIAL_SNH_LOG, 15, poisson, &s->table.material, &e));
     assert_ok(element_choose(&s->table.material, ELEMENT_AUTO, &e));
-    s->problem = (equilibrium_problem){
-        .mesh = &s->mesh, .attach = &s->attach, .materials = &s->table, .material_count = 1};
+    s->problem =
+        (equilibrium_problem){.mesh = &s->mesh, .attach = &s->attach, .materials = &s->table, .material_count = 1};
     rest_motions(s->problem.motion);
     s->problem.motion[SEGMENT_MAXILLA] = rigid_translation((double[]){0, 2, 6});
 }
@@ -44,8 +44,7 @@ static equilibrium solve(const setting *s, const scene_params *scene, scene_repo
 static double apart(const double *a, const double *b, int32_t nodes)
 {
     double worst = 0;
-    for (int32_t v = 0; v < nodes; v++)
-        worst = fmax(worst, vec_distance(a + 3 * (size_t)v, b + 3 * (size_t)v));
+    for (int32_t v = 0; v < nodes; v++) worst = fmax(worst, vec_distance(a + 3 * (size_t)v, b + 3 * (size_t)v));
     return worst;
 }
 
@@ -208,10 +207,8 @@ static void parameters_out_of_range_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pruned_and_full_agree_within_the_tolerance),
-        cmocka_unit_test(full_is_the_plain_solve),
-        cmocka_unit_test(a_head_that_turns_as_a_whole_is_turned),
-        cmocka_unit_test(what_was_held_wrongly_is_found),
+        cmocka_unit_test(pruned_and_full_agree_within_the_tolerance), cmocka_unit_test(full_is_the_plain_solve),
+        cmocka_unit_test(a_head_that_turns_as_a_whole_is_turned),     cmocka_unit_test(what_was_held_wrongly_is_found),
         cmocka_unit_test(parameters_out_of_range_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

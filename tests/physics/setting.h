@@ -21,8 +21,8 @@ typedef struct setting {
 
 static inline void wire(setting *s)
 {
-    s->problem = (equilibrium_problem){
-        .mesh = &s->mesh, .attach = &s->attach, .materials = &s->table, .material_count = 1};
+    s->problem =
+        (equilibrium_problem){.mesh = &s->mesh, .attach = &s->attach, .materials = &s->table, .material_count = 1};
     rest_motions(s->problem.motion);
 }
 

@@ -37,29 +37,14 @@ static void judge(tampering how, bool fine)
     assert_int_equal(q.outcome, SOLVED);
     int32_t inner = stress_node(quiet.cells, 2, 2, 2);
     switch (how) {
-    case FREE_NODE:
-        q.xyz[3 * inner] += 1e-4;
-        break;
-    case TIED_NODE:
-        q.xyz[0] += 1e-6;
-        break;
-    case NOT_A_NUMBER:
-        q.xyz[3 * inner] = (double)NAN;
-        break;
-    case ENERGY:
-        q.energy_uj *= 1.001;
-        break;
-    case VOLUMES:
-        q.extremes.min_j += 0.01;
-        break;
-    case HALF_WAY:
-        q.load_reached = 0.5;
-        break;
-    case INSIDE_OUT:
-        q.xyz[3 * inner + 2] += 30;
-        break;
-    default:
-        break;
+    case FREE_NODE: q.xyz[3 * inner] += 1e-4; break;
+    case TIED_NODE: q.xyz[0] += 1e-6; break;
+    case NOT_A_NUMBER: q.xyz[3 * inner] = (double)NAN; break;
+    case ENERGY: q.energy_uj *= 1.001; break;
+    case VOLUMES: q.extremes.min_j += 0.01; break;
+    case HALF_WAY: q.load_reached = 0.5; break;
+    case INSIDE_OUT: q.xyz[3 * inner + 2] += 30; break;
+    default: break;
     }
     stress_result r = {0};
     stress_verify(&quiet, &s, &q, &r);
@@ -87,8 +72,8 @@ static void whatever_is_tampered_with_is_found_out(void **state)
 static void a_node_in_the_bone_is_found_out(void **state)
 {
     (void)state;
-    static void (*const body[4])(const stress_case *, stress_scene *) = {specimen_on_plane, specimen_on_teeth, specimen_on_ball,
-                                                                         specimen_on_rim};
+    static void (*const body[4])(const stress_case *, stress_scene *) = {specimen_on_plane, specimen_on_teeth,
+                                                                         specimen_on_ball, specimen_on_rim};
     static const double size[4] = {0, 2, 20, 0};
     for (int k = 0; k < 4; k++) {
         err e = {0};

@@ -94,11 +94,12 @@ static inline equilibrium solve_touching(const touching *s, const char *name)
     solve_params params = solve_params_default();
     equilibrium q = solve(&s->body, &params);
     const contact_report *c = &q.contact;
-    printf("%s: %s, %d of %d nodes touch, depth %.4f mm, %.1f + %.1f mm2, %.2f kPa, %d + %d iterations, %d refreshes (last "
-           "%.1e mm), %d stiffenings, %d uncoupled, %.3g of %.3g uJ\n",
-           name, solve_outcome_text(q.outcome), c->active_nodes, c->nodes, c->depth_mm, c->bone_area_mm2, c->lip_area_mm2,
-           c->pressure_kpa, c->free_iterations, c->contact_iterations, c->refreshes, c->refresh_change_mm, c->stiffenings,
-           c->uncoupled, c->energy_uj, q.energy_uj);
+    printf(
+        "%s: %s, %d of %d nodes touch, depth %.4f mm, %.1f + %.1f mm2, %.2f kPa, %d + %d iterations, %d refreshes (last "
+        "%.1e mm), %d stiffenings, %d uncoupled, %.3g of %.3g uJ\n",
+        name, solve_outcome_text(q.outcome), c->active_nodes, c->nodes, c->depth_mm, c->bone_area_mm2, c->lip_area_mm2,
+        c->pressure_kpa, c->free_iterations, c->contact_iterations, c->refreshes, c->refresh_change_mm, c->stiffenings,
+        c->uncoupled, c->energy_uj, q.energy_uj);
     assert_int_equal(q.outcome, SOLVED);
     return q;
 }

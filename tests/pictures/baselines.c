@@ -64,8 +64,8 @@ static void compare(const char *name, const image *drawn)
         assert_ok(png_file_write(drawn, NULL, 0, path, &e));
         snprintf(path, sizeof path, "%s.difference.png", name);
         assert_ok(png_file_write(&where, NULL, 0, path, &e));
-        fail_msg("%s: %lld of %d pixels differ by more than %d; see %s beside this test", name,
-                 (long long)differing, drawn->width * drawn->height, TOLERANCE, path);
+        fail_msg("%s: %lld of %d pixels differ by more than %d; see %s beside this test", name, (long long)differing,
+                 drawn->width * drawn->height, TOLERANCE, path);
     }
     image_free(&want);
 }

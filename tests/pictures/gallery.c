@@ -25,10 +25,7 @@ static image draw_one(gallery *g, panel p, int width, int height)
     return im;
 }
 
-static panel from_left(panel_show show, panel_pose pose)
-{
-    return (panel){show, pose, 90, 0, 0, NULL};
-}
+static panel from_left(panel_show show, panel_pose pose) { return (panel){show, pose, 90, 0, 0, NULL}; }
 
 static void the_standard_set_is_written_and_says_what_it_shows(void **state)
 {
@@ -153,8 +150,7 @@ static void the_profile_moves_as_far_as_the_plan_says(void **state)
     assert_ok(picture_render(s, &none, &plain, &empty, NULL, &e));
     studio_close(&s);
     /* the sphere about the face fills the height less two margins of 6 % */
-    double n[3] = {0, -68, 14}, me[3] = {0, -52, -80},
-           scale = 300 * (1 - 2 * 0.06) / (2 * 0.86 * vec_distance(n, me));
+    double n[3] = {0, -68, 14}, me[3] = {0, -52, -80}, scale = 300 * (1 - 2 * 0.06) / (2 * 0.86 * vec_distance(n, me));
     double pg[3];
     head_point(0, -1.0, 0, pg);
     int y = (int)(150 - scale * (pg[2] - (14 - 80) / 2.0));
@@ -330,8 +326,8 @@ static void exploded_segments_and_landmarks_are_drawn(void **state)
     }
     assert_true(changes >= 2);
     image_free(&im);
-    assert_ok(anatomy_landmarks_write(&h.before, h.part, 1, &h.points, &h.shown.frame, "Landmarks", &style,
-                                      732, 420, "gallery_pictures/landmarks.png", &e));
+    assert_ok(anatomy_landmarks_write(&h.before, h.part, 1, &h.points, &h.shown.frame, "Landmarks", &style, 732, 420,
+                                      "gallery_pictures/landmarks.png", &e));
     assert_ok(png_file_read("gallery_pictures/landmarks.png", &im, &e));
     /* Balls of the skin's points are red at its front border in the profile. */
     bool red = false;

@@ -23,15 +23,9 @@ static pen *pen_on(image *im)
     return p;
 }
 
-static bool dark(const image *im, int x, int y)
-{
-    return image_pixel(im, x, y)[1] < 128;
-}
+static bool dark(const image *im, int x, int y) { return image_pixel(im, x, y)[1] < 128; }
 
-static head_frame straight(void)
-{
-    return (head_frame){.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}};
-}
+static head_frame straight(void) { return (head_frame){.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}}; }
 
 static void a_scale_bar_is_as_long_as_it_says(void **state)
 {
@@ -138,8 +132,7 @@ static void the_maps_are_the_published_ones(void **state)
         for (int k = 0; k < 3; k++) assert_near(rgb[k], want[i][k], 0.025);
     }
     /* Moreland's table of the cool-warm map: 0, 1/4, 1/2, 3/4, 1 of 33 steps */
-    static const int cool[5][3] = {
-        {59, 76, 192}, {141, 176, 254}, {221, 221, 221}, {244, 154, 123}, {180, 4, 38}};
+    static const int cool[5][3] = {{59, 76, 192}, {141, 176, 254}, {221, 221, 221}, {244, 154, 123}, {180, 4, 38}};
     for (int i = 0; i < 5; i++) {
         colormap_color(COLORMAP_COOLWARM, i, 0, 4, rgb);
         for (int k = 0; k < 3; k++) assert_near(255 * rgb[k], cool[i][k], 3);
@@ -158,7 +151,8 @@ static void a_png_comes_back_as_it_went_with_its_texts(void **state)
     err e = {0};
     image im = image_new(37, 19), back = {0};
     for (int i = 0; i < 4 * 37 * 19; i++) im.rgba[i] = (uint8_t)(i * 7 + i / 5);
-    const png_note notes[3] = {{"Software", "gnathos"}, {"Plan", "maxilla +5 mm"}, {"Case", "M\u00fcller \u2013 3\u00b0"}};
+    const png_note notes[3] = {
+        {"Software", "gnathos"}, {"Plan", "maxilla +5 mm"}, {"Case", "M\u00fcller \u2013 3\u00b0"}};
     assert_ok(png_file_write(&im, notes, 3, "round_trip.png", &e));
     assert_ok(png_file_read("round_trip.png", &back, &e));
     assert_int_equal(image_difference(&im, &back, 0), 0);

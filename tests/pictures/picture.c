@@ -39,10 +39,7 @@ static image draw(const layer *layers, int count, const camera *c)
     return im;
 }
 
-static bool reddish(const uint8_t *p)
-{
-    return p[0] > 100 && p[0] > 2 * p[1] && p[0] > 2 * p[2];
-}
+static bool reddish(const uint8_t *p) { return p[0] > 100 && p[0] > 2 * p[1] && p[0] > 2 * p[2]; }
 
 static void paint(layer *l, double r, double g, double b)
 {
@@ -64,8 +61,7 @@ static void a_red_box_is_where_it_should_be(void **state)
     for (int y = 0; y < im.height; y++)
         for (int x = 0; x < im.width; x++) {
             bool inside = x >= 80 + 20 && x < 80 + 40 && y >= 100 - 40 && y < 100;
-            if (reddish(image_pixel(&im, x, y)) != inside)
-                fail_msg("pixel %d %d is %s red", x, y, inside ? "not" : "");
+            if (reddish(image_pixel(&im, x, y)) != inside) fail_msg("pixel %d %d is %s red", x, y, inside ? "not" : "");
         }
     image_free(&im);
     model_free(&m);
@@ -180,8 +176,7 @@ static void clear_skin_shows_the_bone_and_only_its_own_front(void **state)
     image front_only = draw(two, 2, &c);
     for (int y = 60; y < 140; y++)
         for (int x = 40; x < 120; x++)
-            for (int k = 0; k < 3; k++)
-                assert_near(image_pixel(&both, x, y)[k], image_pixel(&front_only, x, y)[k], 1);
+            for (int k = 0; k < 3; k++) assert_near(image_pixel(&both, x, y)[k], image_pixel(&front_only, x, y)[k], 1);
     image_free(&both);
     image_free(&bone_alone);
     image_free(&front_only);
@@ -246,8 +241,7 @@ static void the_map_shows_its_ends_and_no_data_is_grey(void **state)
     l.high = 5;
     uint8_t seen[3][3];
     for (int k = 0; k < 3; k++) {
-        for (int v = 0; v < 8; v++)
-            value[v] = k == 0 ? -1 : k == 1 ? 7 : (double)NAN; /* beyond the ends: the ends */
+        for (int v = 0; v < 8; v++) value[v] = k == 0 ? -1 : k == 1 ? 7 : (double)NAN; /* beyond the ends: the ends */
         image im = draw(&l, 1, &c);
         memcpy(seen[k], image_pixel(&im, 80, 100), 3);
         image_free(&im);
@@ -391,8 +385,7 @@ static void refuses_what_cannot_be_drawn(void **state)
     model_params params = model_params_bone();
     assert_refused(model_create(the_studio, &s, &params, &none, &e), ERR_GEOMETRY);
     camera c;
-    assert_refused(camera_custom((double[3]){0, 0, 1}, (double[3]){0, 0, 2}, (double[3]){0, 0, 0}, &c, &e),
-                   ERR_INPUT);
+    assert_refused(camera_custom((double[3]){0, 0, 1}, (double[3]){0, 0, 2}, (double[3]){0, 0, 0}, &c, &e), ERR_INPUT);
     model_free(&m);
     surface_free(&s);
 }

@@ -33,8 +33,7 @@ static inline surface ball(const double centre[3], double radius, int n)
             s.xyz[3 * v + 2] = centre[2] + radius * cos(a);
         }
     for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 2; k++)
-            s.xyz[3 * (top + k) + c] = centre[c] + (c == 2 ? (k ? -radius : radius) : 0);
+        for (int k = 0; k < 2; k++) s.xyz[3 * (top + k) + c] = centre[c] + (c == 2 ? (k ? -radius : radius) : 0);
     for (int j = 0; j < 2 * n; j++) {
         int32_t next = (j + 1) % (2 * n), last = (n - 2) * 2 * n;
         int32_t cap[6] = {top, j, next, top + 1, last + next, last + j};

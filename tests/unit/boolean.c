@@ -121,8 +121,8 @@ static void refuses_what_is_not_sound_and_says_which(void **state)
     } bad[] = {{&open, "is not closed"}, {&turned, "is inside out"}, {&crossed, "intersects itself"}};
     for (int i = 0; i < 3; i++)
         for (int second = 0; second < 2; second++) {
-            assert_false(boolean_apply(second ? &good : bad[i].s, second ? bad[i].s : &good, BOOLEAN_UNION,
-                                       &out, NULL, &e));
+            assert_false(
+                boolean_apply(second ? &good : bad[i].s, second ? bad[i].s : &good, BOOLEAN_UNION, &out, NULL, &e));
             assert_int_equal(e.code, ERR_GEOMETRY);
             assert_non_null(strstr(e.text, second ? "second body" : "first body"));
             assert_non_null(strstr(e.text, bad[i].text));

@@ -35,8 +35,8 @@ static int drop_folder(void **state)
     return system(line);
 }
 
-#define NEEDED                                                                                               \
-    "\"gnathos\": 1, \"surfaces\": {\"skin\": \"skin.ply\", \"skull\": \"skull.ply\", \"mandible\": "        \
+#define NEEDED                                                                                                         \
+    "\"gnathos\": 1, \"surfaces\": {\"skin\": \"skin.ply\", \"skull\": \"skull.ply\", \"mandible\": "                  \
     "\"mandible.ply\"}, \"landmarks\": \"points.mrk.json\""
 
 static void absent_fields_take_the_defaults_of_their_stage(void **state)

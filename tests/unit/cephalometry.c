@@ -18,10 +18,7 @@ static void put_pair(landmarks *l, const char *label, double forward, double up)
     }
 }
 
-static head_frame file_frame(void)
-{
-    return (head_frame){.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}};
-}
+static head_frame file_frame(void) { return (head_frame){.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}}; }
 
 static const ceph_value *value_of(const ceph_value *v, const char *name)
 {
@@ -198,9 +195,19 @@ static void the_phantom_measures_as_in_its_table(void **state)
     static const struct {
         const char *name;
         double want;
-    } table[] = {{"SNA", 86.7}, {"SNB", 77.6}, {"ANB", 9.2}, {"SN-MP", 30.8}, {"FMA", 23.4}, {"palatal plane", 3.2},
-                 {"facial angle", 85.5}, {"U1-FH", 103.3}, {"overjet", 6.8}, {"overbite", 2.8}, {"LAFH", 65.1},
-                 {"facial convexity", 17.8}, {"nasolabial angle", 122.0}};
+    } table[] = {{"SNA", 86.7},
+                 {"SNB", 77.6},
+                 {"ANB", 9.2},
+                 {"SN-MP", 30.8},
+                 {"FMA", 23.4},
+                 {"palatal plane", 3.2},
+                 {"facial angle", 85.5},
+                 {"U1-FH", 103.3},
+                 {"overjet", 6.8},
+                 {"overbite", 2.8},
+                 {"LAFH", 65.1},
+                 {"facial convexity", 17.8},
+                 {"nasolabial angle", 122.0}};
     err e = {0};
     landmarks l = {0};
     head_frame f;

@@ -165,8 +165,8 @@ static void overlap_of_turned_bodies_is_that_of_corefinement(void **state)
     (void)state;
     surface a = body_box(0, 0, 0, 40, 30, 20), b = body_ball(0, 0, 0, 9, 20);
     clash_body *still = body(&a), *moved = body(&b);
-    const double pivot[3] = {1, 2, 3}, axis[3] = {0.6, 0, 0.8}, way[4][3] = {
-        {20, 15, 25}, {38, 28, 18}, {42, 15, 10}, {20, 15, 15}};
+    const double pivot[3] = {1, 2, 3}, axis[3] = {0.6, 0, 0.8},
+                 way[4][3] = {{20, 15, 25}, {38, 28, 18}, {42, 15, 10}, {20, 15, 15}};
     for (int i = 0; i < 4; i++) {
         rigid turn = rigid_rotation(pivot, axis, 0.7 + i), go = rigid_translation(way[i]),
               rel = rigid_compose(&go, &turn);

@@ -11,8 +11,7 @@ static surface block(double x0, double y0, double z0, double x1, double y1, doub
     int32_t t = 0;
     const double low[3] = {x0, y0, z0}, high[3] = {x1, y1, z1};
     for (int face = 0; face < 6; face++) {
-        int axis = face / 2, side = face % 2, u = (axis + 1) % 3, v = (axis + 2) % 3,
-            base = face * (n + 1) * (n + 1);
+        int axis = face / 2, side = face % 2, u = (axis + 1) % 3, v = (axis + 2) % 3, base = face * (n + 1) * (n + 1);
         for (int i = 0; i <= n; i++)
             for (int j = 0; j <= n; j++) {
                 double *p = s.xyz + 3 * (base + i * (n + 1) + j);
@@ -64,8 +63,7 @@ static void the_rim_of_a_sawn_block_runs_once_around_each_half(void **state)
     for (int k = 0; k < 2; k++) {
         assert_near(total_length(&r, sawn[k]), 60, 1e-9);
         for (int i = 0; i < r.count[sawn[k]]; i++)
-            for (int end = 0; end < 2; end++)
-                assert_near(r.piece[sawn[k]][6 * i + 3 * end + 2], k ? 0 : 0.5, 1e-12);
+            for (int end = 0; end < 2; end++) assert_near(r.piece[sawn[k]][6 * i + 3 * end + 2], k ? 0 : 0.5, 1e-12);
     }
     cut_rims_free(&r);
     cut_rims_free(&r);

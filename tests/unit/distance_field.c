@@ -101,8 +101,10 @@ static void far_outside_it_says_so_and_inside_it_never_does(void **state)
     assert_near(hit[2], 7 + radius, 0.01);
     assert_near(normal[2], 1, 1e-3);
     assert_false(distance_field_leave(f, (double[]){3, -2, 20}, (double[]){0, 0, 1}, 50, hit, normal));
-    assert_false(distance_field_leave(f, (double[]){3, -2, 9}, (double[]){0, 0, 1}, 3, hit, normal)); /* not within 3 mm */
-    assert_true(distance_field_leave(f, (double[]){3, -2, 0}, (double[]){0, 0, 1}, 20, hit, normal)); /* in and out again */
+    assert_false(
+        distance_field_leave(f, (double[]){3, -2, 9}, (double[]){0, 0, 1}, 3, hit, normal)); /* not within 3 mm */
+    assert_true(
+        distance_field_leave(f, (double[]){3, -2, 0}, (double[]){0, 0, 1}, 20, hit, normal)); /* in and out again */
     assert_near(hit[2], 7 + radius, 0.01);
     distance_field_destroy(&f);
     nearest_destroy(&tree);

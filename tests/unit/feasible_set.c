@@ -39,8 +39,8 @@ static bool interrupted(void *context)
 
 static sample_set over(struct set *t)
 {
-    return sample_set_new(&(sample_params){
-        .axis_count = 3, .judge = judge, .keep = keep, .interrupted = interrupted, .context = t});
+    return sample_set_new(
+        &(sample_params){.axis_count = 3, .judge = judge, .keep = keep, .interrupted = interrupted, .context = t});
 }
 
 static int box(const double x[3], int *reason)
@@ -77,9 +77,8 @@ static int walled(const double x[3], int *reason)
 static int two(const double x[3], int *reason)
 {
     *reason = 5;
-    return square(x[0]) + square(x[1]) < square(3.3) || square(x[0] - 8) + square(x[1]) < square(2.2)
-               ? VERDICT_FINE
-               : VERDICT_STOP;
+    return square(x[0]) + square(x[1]) < square(3.3) || square(x[0] - 8) + square(x[1]) < square(2.2) ? VERDICT_FINE
+                                                                                                      : VERDICT_STOP;
 }
 
 static feasible_line line_of(sample_set *s, int axis, int sign)
@@ -138,8 +137,12 @@ static feasible_map map_of(sample_set *s, int dims)
 {
     err e = {0};
     feasible_map m;
-    feasible_map_params p = {.axis_count = dims, .axis = {0, 1, 2}, .spacing = SPACING, .coarse = COARSE,
-                             .reasons = dims == 2, .edges = dims == 2};
+    feasible_map_params p = {.axis_count = dims,
+                             .axis = {0, 1, 2},
+                             .spacing = SPACING,
+                             .coarse = COARSE,
+                             .reasons = dims == 2,
+                             .edges = dims == 2};
     for (int k = 0; k < dims; k++) {
         p.low[k] = -HALF;
         p.high[k] = HALF;

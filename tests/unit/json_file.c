@@ -87,8 +87,7 @@ static void three_numbers_are_read_and_nothing_else(void **state)
     err e = {0};
     double v[3] = {7, 7, 7};
     const json_t *maxilla = json_object_get(json_object_get(f.root, "segments"), "maxilla");
-    assert_ok(json_file_vec3(&f, json_object_get(maxilla, "translate_mm"), "/segments/maxilla/translate_mm",
-                             v, &e));
+    assert_ok(json_file_vec3(&f, json_object_get(maxilla, "translate_mm"), "/segments/maxilla/translate_mm", v, &e));
     assert_near(v[0], 1, 0);
     assert_near(v[1], -2.5, 0);
     assert_near(v[2], 3, 0);
@@ -103,14 +102,13 @@ static void refuses_what_is_not_json(void **state)
     (void)state;
     static const struct {
         const char *text, *want;
-    } bad[] = {
-        {"", "x.json: the file is empty"},
-        {" \n\t", "x.json: the file is empty"},
-        {"{\n\"a\": 1,\n}", "x.json:3: not valid JSON: string or '}' expected near '}' (column 1)"},
-        {"{\"a\": 1, \"a\": 2}", "x.json:1: not valid JSON: duplicate object key near '\"a\"' (column 12)"},
-        {"{\"a\": NaN}", "x.json:1: not valid JSON: invalid token near 'NaN' (column 9)"},
-        {"{\"a\": 1e999}", "x.json:1: not valid JSON: real number overflow near '1e999' (column 11)"},
-        {"{\"a\": 1} x", "x.json:1: not valid JSON: end of file expected near 'x' (column 10)"}};
+    } bad[] = {{"", "x.json: the file is empty"},
+               {" \n\t", "x.json: the file is empty"},
+               {"{\n\"a\": 1,\n}", "x.json:3: not valid JSON: string or '}' expected near '}' (column 1)"},
+               {"{\"a\": 1, \"a\": 2}", "x.json:1: not valid JSON: duplicate object key near '\"a\"' (column 12)"},
+               {"{\"a\": NaN}", "x.json:1: not valid JSON: invalid token near 'NaN' (column 9)"},
+               {"{\"a\": 1e999}", "x.json:1: not valid JSON: real number overflow near '1e999' (column 11)"},
+               {"{\"a\": 1} x", "x.json:1: not valid JSON: end of file expected near 'x' (column 10)"}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         err e = {0};
         json_file f;

@@ -19,12 +19,14 @@ static int make_head(void **state)
     const struct {
         const char *label;
         double x[3];
-    } points[] = {{"Po_L", {60, 10, 30}},     {"Po_R", {-60, 10, 30}},    {"Or_L", {30, -80, 30}}, {"Or_R", {-30, -80, 30}},
-                  {"N", {0, -90, 40}},        {"U1", {0, -90, -20}},      {"U6_L", {20, -50, -20}}, {"U6_R", {-20, -50, -20}},
-                  {"U3_L", {15, -80, -20}},   {"U3_R", {-15, -80, -20}},  {"L1", {0, -80, -20.8}}, {"L6_L", {20, -50, -20.8}},
-                  {"L6_R", {-20, -50, -20.8}}, {"PR_L", {12, -88, 0}},    {"PR_R", {-12, -88, 0}}, {"ZB_L", {28, -60, 0}},
-                  {"ZB_R", {-28, -60, 0}},    {"Me", {0, -80, -60}}};
-    for (size_t i = 0; i < sizeof points / sizeof *points; i++) landmarks_set(&head.points, points[i].label, points[i].x);
+    } points[] = {{"Po_L", {60, 10, 30}},      {"Po_R", {-60, 10, 30}},   {"Or_L", {30, -80, 30}},
+                  {"Or_R", {-30, -80, 30}},    {"N", {0, -90, 40}},       {"U1", {0, -90, -20}},
+                  {"U6_L", {20, -50, -20}},    {"U6_R", {-20, -50, -20}}, {"U3_L", {15, -80, -20}},
+                  {"U3_R", {-15, -80, -20}},   {"L1", {0, -80, -20.8}},   {"L6_L", {20, -50, -20.8}},
+                  {"L6_R", {-20, -50, -20.8}}, {"PR_L", {12, -88, 0}},    {"PR_R", {-12, -88, 0}},
+                  {"ZB_L", {28, -60, 0}},      {"ZB_R", {-28, -60, 0}},   {"Me", {0, -80, -60}}};
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++)
+        landmarks_set(&head.points, points[i].label, points[i].x);
     patient = case_file_default();
     assert_ok(head_frame_from_landmarks(&head.points, &head.frame, &e));
     head.segments.part[SEGMENT_CRANIUM] = body_box(-30, -90, 0.25, 30, -20, 40);
@@ -123,10 +125,7 @@ static void a_gap_stops_where_it_needs_a_graft(void **state)
     assert_int_equal(by, LIMIT_LE_FORT_GAP);
 }
 
-static void lower_up(plan_file *p, double mm)
-{
-    p->segment[SEGMENT_DISTAL].translate_mm[2] = mm;
-}
+static void lower_up(plan_file *p, double mm) { p->segment[SEGMENT_DISTAL].translate_mm[2] = mm; }
 
 static void teeth_stop_the_mandible(void **state)
 {
@@ -154,10 +153,7 @@ static void closing_stops_where_the_front_teeth_meet(void **state)
     assert_int_equal(by, LIMIT_TOOTH_OVERLAP);
 }
 
-static void upper_up(plan_file *p, double mm)
-{
-    p->segment[SEGMENT_MAXILLA].translate_mm[2] = mm;
-}
+static void upper_up(plan_file *p, double mm) { p->segment[SEGMENT_MAXILLA].translate_mm[2] = mm; }
 
 static void bone_to_be_trimmed_is_measured(void **state)
 {
@@ -181,7 +177,8 @@ static void bone_to_be_trimmed_is_measured(void **state)
 static void levels_and_margins_follow_the_ranges(void **state)
 {
     (void)state;
-    const limit_range gap = {{-LIMIT_OPEN, 3}, {-LIMIT_OPEN, 5}}, depth = {{0, 1}, {0, 3}}, room = {{5, LIMIT_OPEN}, {1, LIMIT_OPEN}};
+    const limit_range gap = {{-LIMIT_OPEN, 3}, {-LIMIT_OPEN, 5}}, depth = {{0, 1}, {0, 3}},
+                      room = {{5, LIMIT_OPEN}, {1, LIMIT_OPEN}};
     assert_int_equal(limit_judge(&gap, 3), LIMIT_FINE);
     assert_int_equal(limit_judge(&gap, 3.01), LIMIT_CAUTION);
     assert_int_equal(limit_judge(&gap, 5.01), LIMIT_STOP);

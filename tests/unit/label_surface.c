@@ -11,10 +11,7 @@ static mask box_mask(int n)
     return mask_new(size);
 }
 
-static uint8_t *at(mask *m, int i, int j, int k)
-{
-    return m->on + ((int64_t)k * m->size[1] + j) * m->size[0] + i;
-}
+static uint8_t *at(mask *m, int i, int j, int k) { return m->on + ((int64_t)k * m->size[1] + j) * m->size[0] + i; }
 
 static void fill(mask *m, const int low[3], const int high[3], uint8_t value)
 {

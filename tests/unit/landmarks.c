@@ -39,8 +39,7 @@ static void markups_round_trip_keeps_every_bit_and_the_order(void **state)
     landmarks_free(&l);
 }
 
-#define POINT(label, x, status)                                                                              \
-    "{\"label\":\"" label "\",\"position\":[" x "],\"positionStatus\":\"" status "\"}"
+#define POINT(label, x, status) "{\"label\":\"" label "\",\"position\":[" x "],\"positionStatus\":\"" status "\"}"
 
 static void ras_reads_as_lps_and_undefined_points_are_skipped(void **state)
 {
@@ -48,12 +47,12 @@ static void ras_reads_as_lps_and_undefined_points_are_skipped(void **state)
     err e = {0};
     landmarks l = {0};
     int32_t skipped = 0;
-    write_text("ras.mrk.json",
-               "{\"markups\":[{\"type\":\"Fiducial\",\"coordinateSystem\":\"RAS\","
-               "\"coordinateUnits\":[\"mm\",\"UCUM\",\"millimeter\"],\"controlPoints\":[" POINT(
-                   "N", "1,2,3",
-                   "defined") "," POINT("A", "0,0,0",
-                                        "undefined") ",{\"label\":\"B\",\"positionStatus\":\"preview\"}]}]}");
+    write_text(
+        "ras.mrk.json",
+        "{\"markups\":[{\"type\":\"Fiducial\",\"coordinateSystem\":\"RAS\","
+        "\"coordinateUnits\":[\"mm\",\"UCUM\",\"millimeter\"],\"controlPoints\":[" POINT(
+            "N", "1,2,3", "defined") "," POINT("A", "0,0,0",
+                                               "undefined") ",{\"label\":\"B\",\"positionStatus\":\"preview\"}]}]}");
     assert_ok(landmarks_read("ras.mrk.json", &l, &skipped, &e));
     assert_int_equal(l.count, 1);
     assert_int_equal(skipped, 2);
@@ -93,33 +92,28 @@ static void wrong_files_are_refused_with_file_and_line(void **state)
         const char *path, *text, *says;
     } bad[] = {
         {"twice.mrk.json",
-         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT(
-             "N", "1,2,3", "defined") ",\n" POINT("N", "1,2,3", "defined") "]}]}",
+         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT("N", "1,2,3", "defined") ",\n" POINT(
+             "N", "1,2,3", "defined") "]}]}",
          "twice.mrk.json:3: "},
         {"numbers.mrk.json",
          "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT("N", "1,2", "defined") "]}]}",
          "numbers.mrk.json:2: "},
-        {"missing.mrk.json",
-         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n{\"label\":\"N\"}]}]}",
+        {"missing.mrk.json", "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n{\"label\":\"N\"}]}]}",
          "missing.mrk.json:2: "},
         {"text.mrk.json",
-         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT("N", "1,2,\"3\"",
-                                                                            "defined") "]}]}",
+         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT("N", "1,2,\"3\"", "defined") "]}]}",
          "text.mrk.json:2: "},
-        {"units.mrk.json",
-         "{\"markups\":[{\"type\":\"Fiducial\",\n\"coordinateUnits\":\"um\",\"controlPoints\":[]}]}",
+        {"units.mrk.json", "{\"markups\":[{\"type\":\"Fiducial\",\n\"coordinateUnits\":\"um\",\"controlPoints\":[]}]}",
          "units.mrk.json:2: "},
-        {"side.mrk.json",
-         "{\"markups\":[{\"type\":\"Fiducial\",\n\"coordinateSystem\":\"LAS\",\"controlPoints\":[]}]}",
+        {"side.mrk.json", "{\"markups\":[{\"type\":\"Fiducial\",\n\"coordinateSystem\":\"LAS\",\"controlPoints\":[]}]}",
          "side.mrk.json:2: "},
-        {"plane.mrk.json", "{\"markups\":[\n{\"type\":\"Plane\",\"controlPoints\":[]}]}",
-         "plane.mrk.json:2: "},
+        {"plane.mrk.json", "{\"markups\":[\n{\"type\":\"Plane\",\"controlPoints\":[]}]}", "plane.mrk.json:2: "},
         {"status.mrk.json",
          "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT("N", "1,2,3", "moving") "]}]}",
          "status.mrk.json:2: "},
         {"label.mrk.json",
-         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT(
-             "a label of more than thirty-one bytes", "1,2,3", "defined") "]}]}",
+         "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[\n" POINT("a label of more than thirty-one bytes",
+                                                                            "1,2,3", "defined") "]}]}",
          "label.mrk.json:2: "},
         {"none.mrk.json", "{\"markups\":[{\"type\":\"Fiducial\",\"controlPoints\":[]}]}", "none.mrk.json: "},
         {"other.mrk.json", "{\"points\":[]}", "other.mrk.json:1: "},

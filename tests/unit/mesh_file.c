@@ -90,9 +90,8 @@ static void text_stl_is_read_with_its_tag(void **state)
     err e = {0};
     surface back = {0};
     mesh_file_report r;
-    write_text("text.stl",
-               "solid made by hand SPACE=RAS\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 2 3\n"
-               "vertex 1 5 3\nendloop\nendfacet\nendsolid\n");
+    write_text("text.stl", "solid made by hand SPACE=RAS\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 4 2 3\n"
+                           "vertex 1 5 3\nendloop\nendfacet\nendsolid\n");
     assert_ok(mesh_read_surface("text.stl", MESH_SPACE_FROM_FILE, &back, &r, &e));
     assert_true(r.tagged && r.ras);
     assert_int_equal(back.vertex_count, 3);
@@ -123,8 +122,7 @@ static void obj_groups_become_one_welded_surface_and_polygons_are_split(void **s
     err e = {0};
     surface back = {0};
     mesh_file_report r;
-    write_text("groups.obj",
-               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\ng floor\nf 1 4 3 2\ng side\nf 1 2 5\n");
+    write_text("groups.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\ng floor\nf 1 4 3 2\ng side\nf 1 2 5\n");
     assert_ok(mesh_read_surface("groups.obj", MESH_SPACE_FROM_FILE, &back, &r, &e));
     assert_int_equal(back.vertex_count, 5);
     assert_int_equal(back.triangle_count, 3);
@@ -139,9 +137,8 @@ static void a_file_in_ras_reads_as_the_same_surface_in_lps(void **state)
     err e = {0};
     surface ras = {0}, told = {0}, off = {0};
     mesh_file_report r;
-    const char *body =
-        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
-        "property list uchar int vertex_indices\nend_header\n1 2 3\n4 5 6\n7 8 10\n3 0 1 2\n3 1 1 2\n";
+    const char *body = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+                       "property list uchar int vertex_indices\nend_header\n1 2 3\n4 5 6\n7 8 10\n3 0 1 2\n3 1 1 2\n";
     char text[400];
     snprintf(text, sizeof text, "ply\nformat ascii 1.0\ncomment 3D Slicer. SPACE=RAS\n%s", body);
     write_text("ras.ply", text);
@@ -170,15 +167,14 @@ static void gltf_is_turned_from_metres_with_y_up(void **state)
     err e = {0};
     surface back = {0};
     /* one triangle (0,0,0) (0.1,0,0) (0,0.2,0.3) m, under a node moved by 1 m up (+y) */
-    write_text("triangle.gltf",
-               "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
-               "\"nodes\":[{\"mesh\":0,\"translation\":[0,1,0]}],"
-               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":4}]}],"
-               "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
-               "\"min\":[0,0,0],\"max\":[0.1,0.2,0.3]}],"
-               "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-               "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
-               "AAAAAAAAAAAAAAAAzczMPQAAAAAAAAAAAAAAAM3MTD6amZk+\"}]}");
+    write_text("triangle.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+                                "\"nodes\":[{\"mesh\":0,\"translation\":[0,1,0]}],"
+                                "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":4}]}],"
+                                "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+                                "\"min\":[0,0,0],\"max\":[0.1,0.2,0.3]}],"
+                                "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                                "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+                                "AAAAAAAAAAAAAAAAzczMPQAAAAAAAAAAAAAAAM3MTD6amZk+\"}]}");
     assert_ok(mesh_read_surface("triangle.gltf", MESH_SPACE_FROM_FILE, &back, NULL, &e));
     const double want[9] = {0, 0, 1000, 100, 0, 1000, 0, -300, 1200};
     for (int i = 0; i < 9; i++) assert_near(back.xyz[i], want[i], 1e-4);

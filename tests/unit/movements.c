@@ -5,10 +5,7 @@
 
 static const head_frame straight = {.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}};
 
-static double value(const json_t *row, const char *key)
-{
-    return json_number_value(json_object_get(row, key));
-}
+static double value(const json_t *row, const char *key) { return json_number_value(json_object_get(row, key)); }
 
 static void a_move_is_told_at_the_landmark_of_its_segment(void **state)
 {
@@ -21,7 +18,8 @@ static void a_move_is_told_at_the_landmark_of_its_segment(void **state)
     vec_copy(l.point[0].xyz, m.pivot_mm);
     move[SEGMENT_MAXILLA] = rig_segment_motion(&m, &straight);
     move[SEGMENT_CHIN] = rigid_translation((double[]){0, -6, 0});
-    json_t *list = movements_json(move, &l, &straight), *maxilla = json_array_get(list, 0), *chin = json_array_get(list, 1);
+    json_t *list = movements_json(move, &l, &straight), *maxilla = json_array_get(list, 0),
+           *chin = json_array_get(list, 1);
     assert_int_equal(json_array_size(list), 2); /* the others stay */
     assert_string_equal(json_string_value(json_object_get(maxilla, "segment")), "maxilla");
     assert_string_equal(json_string_value(json_object_get(maxilla, "at")), "U1");

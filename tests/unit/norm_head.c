@@ -123,8 +123,7 @@ static void bone_and_teeth_stay_under_the_skin(void **state)
     assert_ok(nearest_create(&head.skin, &tree, &e));
     const surface *bones[] = {&head.skull, &head.mandible, &head.upper_teeth, &head.lower_teeth};
     for (int b = 0; b < 4; b++)
-        for (int i = 0; i < bones[b]->vertex_count; i += 3)
-            assert_true(nearest_inside(tree, bones[b]->xyz + 3 * i));
+        for (int i = 0; i < bones[b]->vertex_count; i += 3) assert_true(nearest_inside(tree, bones[b]->xyz + 3 * i));
     nearest_destroy(&tree);
     assert_true(head.thinnest_mm > 2);
 }
@@ -196,8 +195,7 @@ static void depths_that_go_together_are_drawn_together(void **state)
             double term[5] = {x, y, x * x, y * y, x * y};
             for (int c = 0; c < 5; c++) sum[c] += term[c] / DRAWS;
         }
-        double r = (sum[4] - sum[0] * sum[1]) /
-                   sqrt((sum[2] - sum[0] * sum[0]) * (sum[3] - sum[1] * sum[1]));
+        double r = (sum[4] - sum[0] * sum[1]) / sqrt((sum[2] - sum[0] * sum[0]) * (sum[3] - sum[1] * sum[1]));
         assert_near(r, rows[k].r, 0.05);
     }
 }
@@ -243,18 +241,17 @@ static void refuses_what_it_cannot_build(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(surfaces_are_closed_and_outward),
-        cmocka_unit_test(measures_come_out_as_asked),
-        cmocka_unit_test(landmarks_lie_on_the_meshes),
-        cmocka_unit_test(extremes_of_the_mesh_are_the_landmarks),
-        cmocka_unit_test(frankfort_plane_is_level),
-        cmocka_unit_test(bone_and_teeth_stay_under_the_skin),
-        cmocka_unit_test(class_three_has_the_lower_incisors_in_front),
-        cmocka_unit_test(side_teeth_are_in_occlusion),
-        cmocka_unit_test(the_same_seed_gives_the_same_measures_and_another_seed_others),
-        cmocka_unit_test(depths_that_go_together_are_drawn_together),
-        cmocka_unit_test(warps_take_points_exactly_and_keep_affine_maps),
-        cmocka_unit_test(refuses_what_it_cannot_build)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_are_closed_and_outward),
+                                       cmocka_unit_test(measures_come_out_as_asked),
+                                       cmocka_unit_test(landmarks_lie_on_the_meshes),
+                                       cmocka_unit_test(extremes_of_the_mesh_are_the_landmarks),
+                                       cmocka_unit_test(frankfort_plane_is_level),
+                                       cmocka_unit_test(bone_and_teeth_stay_under_the_skin),
+                                       cmocka_unit_test(class_three_has_the_lower_incisors_in_front),
+                                       cmocka_unit_test(side_teeth_are_in_occlusion),
+                                       cmocka_unit_test(the_same_seed_gives_the_same_measures_and_another_seed_others),
+                                       cmocka_unit_test(depths_that_go_together_are_drawn_together),
+                                       cmocka_unit_test(warps_take_points_exactly_and_keep_affine_maps),
+                                       cmocka_unit_test(refuses_what_it_cannot_build)};
     return cmocka_run_group_tests(tests, build, clean);
 }

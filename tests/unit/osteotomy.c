@@ -188,10 +188,9 @@ static void the_sagittal_split_parts_condyle_from_teeth(void **state)
     cut_report r;
     assert_ok(osteotomy_cut(&in, &p, &s, &r, &e));
     check_closed(&s);
-    static const char *const proximal[] = {"Co_L", "Cor_L", "Go_L", "RP_L"}, *const distal[] = {
-                                                                                 "L1",   "L3_L", "L6_L",
-                                                                                 "L7_L", "Li_L", "Li_R",
-                                                                                 "MF_L", "Me"};
+    static const char *const proximal[] = {"Co_L", "Cor_L", "Go_L", "RP_L"}, *const distal[] = {"L1",   "L3_L", "L6_L",
+                                                                                                "L7_L", "Li_L", "Li_R",
+                                                                                                "MF_L", "Me"};
     for (int i = 0; i < 4; i++) assert_true(holds(&s.part[SEGMENT_PROXIMAL_LEFT], &m.points, proximal[i]));
     for (int i = 0; i < 8; i++) assert_true(holds(&s.part[SEGMENT_DISTAL], &m.points, distal[i]));
     for (int i = SEGMENT_DISTAL; i <= SEGMENT_PROXIMAL_RIGHT; i++) {
@@ -231,8 +230,7 @@ static void the_split_follows_an_opened_mandible(void **state)
     const double pivot[3] = {0, 2, 52}, axis[3] = {1, 0, 0};
     rigid turn = rigid_rotation(pivot, axis, 0.5);
     surface_transform(&m.mandible, &turn);
-    for (int32_t i = 0; i < m.points.count; i++)
-        rigid_apply(&turn, m.points.point[i].xyz, m.points.point[i].xyz);
+    for (int32_t i = 0; i < m.points.count; i++) rigid_apply(&turn, m.points.point[i].xyz, m.points.point[i].xyz);
     assert_ok(osteotomy_cut(&in, &p, &open, NULL, &e));
     for (int i = SEGMENT_DISTAL; i < SEGMENT_COUNT; i++)
         assert_near(surface_volume(&open.part[i]), surface_volume(&closed.part[i]),

@@ -160,8 +160,7 @@ static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **sta
     }
     assert_int_equal(count, n.septum_tets);
     assert_true(n.anchors > 0);
-    for (int32_t i = 0; i < n.anchors; i++)
-        assert_true(t.mesh.xyz[3 * (size_t)n.anchor[i] + 2] > 2 * p.foot_mm);
+    for (int32_t i = 0; i < n.anchors; i++) assert_true(t.mesh.xyz[3 * (size_t)n.anchor[i] + 2] > 2 * p.foot_mm);
     assert_ok(nose_make(&t, &skin, &bones, &up, &l, &p, &trimmed, &found, &e));
     assert_true(found && trimmed.septum_tets < n.septum_tets); /* an impacted maxilla takes its foot */
     nose_free(&n);

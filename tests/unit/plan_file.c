@@ -21,8 +21,7 @@ static int make_head(void **state)
     } points[] = {{"Po_L", {60, 10, 0}},   {"Po_R", {-60, 10, 0}}, {"Or_L", {30, -70, 0}},
                   {"Or_R", {-30, -70, 0}}, {"U1", {0, -80, -40}},  {"L1", {0, -78, -42}},
                   {"Pog", {0, -75, -80}},  {"Co_L", {50, 0, -5}},  {"Co_R", {-50, 0, -5}}};
-    for (size_t i = 0; i < sizeof points / sizeof points[0]; i++)
-        landmarks_set(&head, points[i].label, points[i].x);
+    for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) landmarks_set(&head, points[i].label, points[i].x);
     patient = case_file_default();
     return 0;
 }
@@ -118,8 +117,7 @@ static void angles_turn_as_the_help_says(void **state)
         double from[3];
         int axis;
         double sign; /* of the displacement along the axis */
-    } turn[] = {
-        {"pitch_deg", {0, -90, 0}, 2, -1}, {"yaw_deg", {0, -90, 0}, 0, 1}, {"roll_deg", {50, 0, 0}, 2, -1}};
+    } turn[] = {{"pitch_deg", {0, -90, 0}, 2, -1}, {"yaw_deg", {0, -90, 0}, 0, 1}, {"roll_deg", {50, 0, 0}, 2, -1}};
     for (int i = 0; i < 3; i++) {
         char text[256];
         double to[3];
@@ -130,8 +128,7 @@ static void angles_turn_as_the_help_says(void **state)
         plan_moves m = moves_of(text);
         rigid_apply(&m.move[SEGMENT_MAXILLA], turn[i].from, to);
         double arm = vec_norm(turn[i].from);
-        assert_near(to[turn[i].axis] - turn[i].from[turn[i].axis], turn[i].sign * arm * sin(M_PI / 180),
-                    1e-9);
+        assert_near(to[turn[i].axis] - turn[i].from[turn[i].axis], turn[i].sign * arm * sin(M_PI / 180), 1e-9);
         assert_near(m.measure[LIMIT_MAXILLA_TURN], 1, 1e-9);
     }
 }
@@ -140,16 +137,16 @@ static void a_pivot_stays_but_for_the_translation(void **state)
 {
     (void)state;
     double d[3];
-    plan_moves m = moves_of(
-        "{\"gnathos\": 1, \"segments\": {\"maxilla\": {\"translate_mm\": [1, -2, 3], \"pitch_deg\": 3, "
-        "\"yaw_deg\": -2, \"roll_deg\": 1, \"pivot\": \"U1\"}}}");
+    plan_moves m =
+        moves_of("{\"gnathos\": 1, \"segments\": {\"maxilla\": {\"translate_mm\": [1, -2, 3], \"pitch_deg\": 3, "
+                 "\"yaw_deg\": -2, \"roll_deg\": 1, \"pivot\": \"U1\"}}}");
     moved(&m, SEGMENT_MAXILLA, "U1", d);
     assert_near(d[0], 1, 1e-9);
     assert_near(d[1], -2, 1e-9);
     assert_near(d[2], 3, 1e-9);
-    plan_moves same = moves_of(
-        "{\"gnathos\": 1, \"segments\": {\"maxilla\": {\"translate_mm\": [1, -2, 3], \"pitch_deg\": 3, "
-        "\"yaw_deg\": -2, \"roll_deg\": 1}}}");
+    plan_moves same =
+        moves_of("{\"gnathos\": 1, \"segments\": {\"maxilla\": {\"translate_mm\": [1, -2, 3], \"pitch_deg\": 3, "
+                 "\"yaw_deg\": -2, \"roll_deg\": 1}}}");
     assert_memory_equal(&m, &same, sizeof m); /* U1 is the maxilla's own pivot */
 }
 
@@ -164,8 +161,7 @@ static void matrix_and_transform_file_say_the_same(void **state)
     assert_ok(transform_write(&a, tfm, &e));
     rigid_to_matrix(&a, m16);
     int n = snprintf(text, sizeof text, "{\"gnathos\": 1, \"segments\": {\"distal\": {\"matrix\": [");
-    for (int i = 0; i < 16; i++)
-        n += snprintf(text + n, sizeof text - (size_t)n, "%s%.17g", i ? ", " : "", m16[i]);
+    for (int i = 0; i < 16; i++) n += snprintf(text + n, sizeof text - (size_t)n, "%s%.17g", i ? ", " : "", m16[i]);
     snprintf(text + n, sizeof text - (size_t)n, "]}}}");
     plan_moves by_matrix = moves_of(text);
     snprintf(text, sizeof text, "{\"gnathos\": 1, \"segments\": {\"distal\": {\"file\": \"%s\"}}}", tfm);

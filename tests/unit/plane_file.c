@@ -101,14 +101,11 @@ static void wrong_planes_are_refused_with_file_and_line(void **state)
          "line.mrk.json:2: "},
         {"two.mrk.json", "{\"markups\":[{\"type\":\"Plane\",\n\"controlPoints\":[{\"position\":[0,0,0]}]}]}",
          "two.mrk.json:2: "},
-        {"fit.mrk.json",
-         "{\"markups\":[{\"type\":\"Plane\",\n\"planeType\":\"PlaneFit\",\"controlPoints\":[]}]}",
+        {"fit.mrk.json", "{\"markups\":[{\"type\":\"Plane\",\n\"planeType\":\"PlaneFit\",\"controlPoints\":[]}]}",
          "fit.mrk.json:2: "},
-        {"matrix.mrk.json",
-         "{\"markups\":[{\"type\":\"Plane\",\n\"objectToBase\":[1,2],\"controlPoints\":[]}]}",
+        {"matrix.mrk.json", "{\"markups\":[{\"type\":\"Plane\",\n\"objectToBase\":[1,2],\"controlPoints\":[]}]}",
          "matrix.mrk.json:2: "},
-        {"points.mrk.json", "{\"markups\":[\n{\"type\":\"Fiducial\",\"controlPoints\":[]}]}",
-         "points.mrk.json:2: "},
+        {"points.mrk.json", "{\"markups\":[\n{\"type\":\"Fiducial\",\"controlPoints\":[]}]}", "points.mrk.json:2: "},
         {"plane.txt", "x", "plane.txt: unknown kind"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

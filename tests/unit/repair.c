@@ -163,8 +163,8 @@ static void scanned_bones_come_out_solid(void **state)
         err e = {0};
         surface s;
         repair_report r;
-        snprintf(path, sizeof path, "%s/%s",
-                 getenv("GNATHOS_DATA") ? getenv("GNATHOS_DATA") : "../shared/data", files[i]);
+        snprintf(path, sizeof path, "%s/%s", getenv("GNATHOS_DATA") ? getenv("GNATHOS_DATA") : "../shared/data",
+                 files[i]);
         FILE *there = fopen(path, "rb");
         if (!there) {
             print_message("skipped: %s is not there\n", path);

@@ -100,19 +100,20 @@ static void published_measures_are_taken_from_landmarks(void **state)
     static const struct {
         const char *label;
         double xyz[3];
-    } at[] = {{"U1", {0, 0, 0}},      {"Ls", {0, -10, 5}},     {"Sn", {0, -10, 20}},  {"Pn", {0, -25, 20}},
+    } at[] = {{"U1", {0, 0, 0}},      {"Ls", {0, -10, 5}},     {"Sn", {0, -10, 20}},     {"Pn", {0, -25, 20}},
               {"Al_L", {18, -5, 22}}, {"Al_R", {-18, -5, 22}}, {"Li_soft", {0, -9, -5}}, {"L1", {0, 1, -2}}};
     prepared p = {.frame = {.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}}};
     for (size_t i = 0; i < sizeof at / sizeof *at; i++) landmarks_set(&p.points, at[i].label, at[i].xyz);
     const char *const lip[2] = {"U1", "Ls"}, *const wing[2] = {"Al_L", "Al_R"}, *const lower[2] = {"L1", "Li_soft"};
-    double both[2][3] = {{5, 0, 0}, {4, 1, 0}}, wide[2][3] = {{0, 0, 1.5}, {0, 0, -0.5}}, thin[2][3] = {{6, 0, 0}, {4, 0, 0}};
+    double both[2][3] = {{5, 0, 0}, {4, 1, 0}}, wide[2][3] = {{0, 0, 1.5}, {0, 0, -0.5}},
+           thin[2][3] = {{6, 0, 0}, {4, 0, 0}};
     assert_near(measured(&p, "Ls : U1, forward", lip, both, 2), 0.8, 1e-12);
     assert_near(measured(&p, "Ls up : U1 forward", lip, both, 2), 0.2, 1e-12);
     assert_near(measured(&p, "Al_L to Al_R, wider by mm", wing, wide, 2), 2, 1e-12);
     assert_near(measured(&p, "Li_soft before L1, thicker by mm", lower, thin, 2), -2, 1e-12);
     /* a right angle at Sn, level nose over upright lip: the lip goes 4 mm forward and 1 up, 14 below Sn then */
-    assert_near(measured(&p, "nasolabial angle, degrees per mm of U1 forward", lip, both, 2), -atan2(4, 14) * 180 / M_PI / 5,
-                1e-9);
+    assert_near(measured(&p, "nasolabial angle, degrees per mm of U1 forward", lip, both, 2),
+                -atan2(4, 14) * 180 / M_PI / 5, 1e-9);
     double still[2][3] = {{0.4, 0, 0}, {4, 0, 0}}; /* the bone hardly moves */
     assert_true(isnan(measured(&p, "Ls : U1, forward", lip, still, 2)));
     assert_true(isnan(measured(&p, "Stms up : U1 forward", lip, both, 2)));

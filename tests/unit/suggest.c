@@ -1,8 +1,7 @@
 #include "tests/check.h"
 #include "app/planner/store/suggest.h"
 
-static const char *const names[] = {"check", "prepare", "predict", "maxilla_advance_mm",
-                                    "maxilla_impaction_mm"};
+static const char *const names[] = {"check", "prepare", "predict", "maxilla_advance_mm", "maxilla_impaction_mm"};
 enum { COUNT = sizeof names / sizeof names[0] };
 
 static void one_slip_finds_the_name(void **state)

@@ -120,7 +120,7 @@ static void alignment_finds_the_motion_and_ignores_what_changed(void **state)
     for (int32_t v = 0; v < still.vertex_count; v++) {
         double *p = moving.xyz + 3 * (size_t)v;
         top[v] = p[2] > 0;
-        if (p[2] < -20) p[1] -= 6; /* the jaw was moved: below, not part of the fit */
+        if (p[2] < -20) p[1] -= 6;            /* the jaw was moved: below, not part of the fit */
         if (p[2] > 0 && p[0] > 45) p[0] += 4; /* a swelling in it: is trimmed away */
     }
     rigid turn = rigid_rotation((const double[3]){10, 0, 0}, (const double[3]){0, 0.6, 0.8}, 0.08),
@@ -161,10 +161,10 @@ static void alignment_refuses_what_leaves_the_motion_open(void **state)
 
 static landmarks face_of_the_egg(void)
 {
-    static const landmark all[] = {{"Po_L", {60, 0, 20}},   {"Po_R", {-60, 0, 20}}, {"Or_L", {30, -60, 20}},
-                                   {"Or_R", {-30, -60, 20}}, {"N", {0, -70, 30}},    {"Sn", {0, -75, -10}},
-                                   {"Al_L", {16, -70, -8}}, {"Al_R", {-16, -70, -8}}, {"Ch_L", {25, -66, -30}},
-                                   {"Ch_R", {-25, -66, -30}}, {"Stm", {0, -72, -30}}, {"B'", {0, -68, -45}},
+    static const landmark all[] = {{"Po_L", {60, 0, 20}},     {"Po_R", {-60, 0, 20}},   {"Or_L", {30, -60, 20}},
+                                   {"Or_R", {-30, -60, 20}},  {"N", {0, -70, 30}},      {"Sn", {0, -75, -10}},
+                                   {"Al_L", {16, -70, -8}},   {"Al_R", {-16, -70, -8}}, {"Ch_L", {25, -66, -30}},
+                                   {"Ch_R", {-25, -66, -30}}, {"Stm", {0, -72, -30}},   {"B'", {0, -68, -45}},
                                    {"Me'", {0, -50, -75}}};
     landmarks l = {0};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) landmarks_set(&l, all[i].label, all[i].xyz);
@@ -253,7 +253,8 @@ static void skin_over_bone_that_shifts_as_one_follows_by_85_percent(void **state
     for (int i = 0; i < 40; i++) {
         int32_t best = -1;
         for (int32_t v = 0; v < b->vertex_count; v++)
-            if (!taken[v] && (best < 0 || vec_distance(p, b->xyz + 3 * (size_t)v) < vec_distance(p, b->xyz + 3 * (size_t)best)))
+            if (!taken[v] &&
+                (best < 0 || vec_distance(p, b->xyz + 3 * (size_t)v) < vec_distance(p, b->xyz + 3 * (size_t)best)))
                 best = v;
         const double *q = b->xyz + 3 * (size_t)best;
         double to[3], w = exp(-pow(vec_distance(p, q) / 12, 2) / 2);
@@ -263,7 +264,8 @@ static void skin_over_bone_that_shifts_as_one_follows_by_85_percent(void **state
         sum += w;
         taken[best] = 1;
     }
-    for (int c = 0; c < 3; c++) assert_near(after[3 * 37 + c] - p[c], 0.85 * moved[c] / sum, 0.02); /* ties at the rim */
+    for (int c = 0; c < 3; c++)
+        assert_near(after[3 * 37 + c] - p[c], 0.85 * moved[c] / sum, 0.02); /* ties at the rim */
     free(taken);
     segments_free(&bones);
     assert_refused(smoothed_motion(&skin, chosen, &bones, move, after, &e), ERR_GEOMETRY);

@@ -26,7 +26,8 @@ static void front(landmarks *l, const char *label, double radius, double left, d
 
 static toy make_toy(void)
 {
-    toy t = {.skin = sphere(origin, SKIN_MM, 60), .bones = sphere(origin, BONE_MM, 60), .params = tissue_params_default()};
+    toy t = {
+        .skin = sphere(origin, SKIN_MM, 60), .bones = sphere(origin, BONE_MM, 60), .params = tissue_params_default()};
     t.parts.part[SEGMENT_CRANIUM] = surface_copy(&t.bones);
     const double po_l[3] = {BONE_MM, 0, 0}, po_r[3] = {-BONE_MM, 0, 0};
     landmarks_set(&t.points, "Po_L", po_l);
@@ -147,7 +148,8 @@ static void the_lips_are_separate_between_the_mouth_corners(void **state)
     assert_true(r.lip_pairs > 10);
     for (int32_t i = 0; i < m.attach.pair_count; i++) {
         const double *up = m.mesh.xyz + 3 * (size_t)m.attach.pair[2 * i],
-                     *low = m.mesh.xyz + 3 * (size_t)m.attach.pair[2 * i + 1], *n = m.attach.pair_normal + 3 * (size_t)i;
+                     *low = m.mesh.xyz + 3 * (size_t)m.attach.pair[2 * i + 1],
+                     *n = m.attach.pair_normal + 3 * (size_t)i;
         assert_memory_equal(up, low, 3 * sizeof *up);
         assert_true(fabs(up[0]) < 22);
         assert_near(up[2], -20, 2.0); /* a facet of the sheet may lean by a good part of an element, 5 mm */
@@ -186,7 +188,8 @@ static void skin_is_carried_exactly_by_an_affine_motion_and_by_its_own_lip(void 
 {
     (void)state;
     embedding em = tissue_carry(&m, t.skin.xyz, t.skin.vertex_count, 2);
-    double *u = NEW_ARRAY(double, 3 * (size_t)m.mesh.vertex_count), *out = NEW_ARRAY(double, 3 * (size_t)t.skin.vertex_count);
+    double *u = NEW_ARRAY(double, 3 * (size_t)m.mesh.vertex_count),
+           *out = NEW_ARRAY(double, 3 * (size_t)t.skin.vertex_count);
     for (int32_t v = 0; v < m.mesh.vertex_count; v++) {
         const double *x = m.mesh.xyz + 3 * (size_t)v;
         u[3 * v] = 0.1 * x[1] - 0.3 * x[2] + 1;
@@ -202,8 +205,7 @@ static void skin_is_carried_exactly_by_an_affine_motion_and_by_its_own_lip(void 
         assert_near(out[3 * v] - x[0], 0.1 * x[1] - 0.3 * x[2] + 1, 1e-9);
         assert_near(out[3 * v + 1] - x[1], 0.2 * x[0], 1e-9);
         assert_near(out[3 * v + 2] - x[2], -0.4 * x[2] + 0.05 * x[0] - 2, 1e-9);
-        if (fabs(x[0]) < 20)
-            assert_int_equal(m.mesh.region[em.tet[v]], x[2] > -20 ? REGION_UPPER : REGION_LOWER);
+        if (fabs(x[0]) < 20) assert_int_equal(m.mesh.region[em.tet[v]], x[2] > -20 ? REGION_UPPER : REGION_LOWER);
     }
     assert_true(carried > 500);
     free(u);

@@ -22,8 +22,7 @@ static void each_tet_becomes_eight_of_its_volume(void **state)
     assert_int_equal(fine.mesh.tet_count, 8 * t.mesh.tet_count);
     assert_ok(tetmesh_check(&fine.mesh, &e));
     assert_near(tetmesh_measure(&fine.mesh).volume_mm3, tetmesh_measure(&t.mesh).volume_mm3, 1e-9);
-    for (int32_t i = 0; i < fine.mesh.tet_count; i++)
-        assert_int_equal(fine.mesh.region[i], t.mesh.region[i / 8]);
+    for (int32_t i = 0; i < fine.mesh.tet_count; i++) assert_int_equal(fine.mesh.region[i], t.mesh.region[i / 8]);
     int32_t *face, *fine_face, faces = tetmesh_boundary(&t.mesh, &face, NULL);
     assert_int_equal(tetmesh_boundary(&fine.mesh, &fine_face, NULL),
                      4 * faces); /* conforming inside, lips still apart */
@@ -43,8 +42,7 @@ static void attachment_and_lips_go_on_between_the_old_nodes(void **state)
         const double *x = fine.mesh.xyz + 3 * (size_t)v;
         bool bottom = x[2] == 0, top = x[2] == 16;
         assert_int_equal(fine.attach.kind[v] == NODE_TIED, bottom || top);
-        if (bottom || top)
-            assert_int_equal(fine.attach.segment[v], bottom ? SEGMENT_DISTAL : SEGMENT_MAXILLA);
+        if (bottom || top) assert_int_equal(fine.attach.segment[v], bottom ? SEGMENT_DISTAL : SEGMENT_MAXILLA);
         if (fine.attach.kind[v] == NODE_SLIDING) {
             assert_near(x[0], 0, 1e-12);
             assert_near(fine.attach.normal[3 * (size_t)v], 1, 1e-12);

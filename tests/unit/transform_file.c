@@ -20,9 +20,8 @@ static void a_slicer_node_moves_bone_forwards(void **state)
     err e = {0};
     const double shift[3] = {5, 7, -11}; /* RAS: A p = (-p1, p0, p2) + shift */
     /* F A F = turn by 90 about S with shift (-5,-7,-11); its inverse: M = (y, -x, z), t = -M (-5,-7,-11) */
-    write_text("node.tfm",
-               "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\n"
-               "Parameters: 0 1 0 -1 0 0 0 0 1 7 -5 11\nFixedParameters: 0 0 0\n");
+    write_text("node.tfm", "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\n"
+                           "Parameters: 0 1 0 -1 0 0 0 0 1 7 -5 11\nFixedParameters: 0 0 0\n");
     rigid motion;
     assert_ok(transform_read("node.tfm", &motion, &e));
     const double ras[3][3] = {{1, 0, 0}, {0, 20, 3}, {-4, 9, 100}};
@@ -130,24 +129,20 @@ static void wrong_transforms_are_refused_with_file_and_line(void **state)
         {"a.mat", "x", "a.mat: unknown kind"},
         {"empty.tfm", "", "empty.tfm: holds no transform"},
         {"head.tfm", "hello\n", "head.tfm:1: "},
-        {"composite.tfm", HEAD "Transform: CompositeTransform_double_3_3\n",
-         "composite.tfm:3: Transform: Composite"},
+        {"composite.tfm", HEAD "Transform: CompositeTransform_double_3_3\n", "composite.tfm:3: Transform: Composite"},
         {"plane.tfm", HEAD "Transform: AffineTransform_double_2_2\n", "plane.tfm:3: "},
         {"scale.tfm", HEAD AFFINE "Parameters: 1.1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n",
          "scale.tfm:4: Parameters: the matrix is not rigid"},
-        {"mirror.tfm", HEAD AFFINE "Parameters: -1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n",
-         "mirror.tfm:4: "},
+        {"mirror.tfm", HEAD AFFINE "Parameters: -1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n", "mirror.tfm:4: "},
         {"few.tfm", HEAD AFFINE "Parameters: 1 0 0\nFixedParameters: 0 0 0\n", "few.tfm:4: "},
         {"cut.tfm", HEAD AFFINE "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\n", "cut.tfm:3: "},
         {"word.tfm", HEAD AFFINE "Parameters: 1 0 zero\n", "word.tfm:4: "},
         {"nan.tfm", HEAD AFFINE "Parameters: 1 0 nan\n", "nan.tfm:4: "},
-        {"two.tfm",
-         HEAD AFFINE "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n#Transform 1\n" AFFINE,
+        {"two.tfm", HEAD AFFINE "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n#Transform 1\n" AFFINE,
          "two.tfm:7: "},
         {"entry.tfm", HEAD AFFINE "Colour: red\n", "entry.tfm:4: "},
         {"versor.tfm",
-         HEAD
-         "Transform: VersorRigid3DTransform_double_3_3\nParameters: 1 1 0 0 0 0\nFixedParameters: 0 0 0\n",
+         HEAD "Transform: VersorRigid3DTransform_double_3_3\nParameters: 1 1 0 0 0 0\nFixedParameters: 0 0 0\n",
          "versor.tfm:4: "},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -24,8 +24,7 @@ static int16_t count_up[24];
 /* Place of voxel (i,j,k). */
 static void place(const volume *v, int i, int j, int k, double out[3])
 {
-    for (int c = 0; c < 3; c++)
-        out[c] = v->origin[c] + i * v->step[0][c] + j * v->step[1][c] + k * v->step[2][c];
+    for (int c = 0; c < 3; c++) out[c] = v->origin[c] + i * v->step[0][c] + j * v->step[1][c] + k * v->step[2][c];
 }
 
 static void check_places(const volume *v)
@@ -197,9 +196,8 @@ static void wrong_volumes_are_refused_by_name(void **state)
     write_bytes("nospace.nrrd", NRRD_HEAD "\n", count_up, sizeof count_up);
     write_bytes("cut.nrrd", NRRD_HEAD "space: left-posterior-superior\n" GRID, count_up, 40);
     write_bytes("scanner.nrrd", NRRD_HEAD "space: scanner-xyz\n" GRID, count_up, sizeof count_up);
-    write_bytes("units.nrrd",
-                NRRD_HEAD "space: left-posterior-superior\nspace units: \"m\" \"m\" \"m\"\n" GRID, count_up,
-                sizeof count_up);
+    write_bytes("units.nrrd", NRRD_HEAD "space: left-posterior-superior\nspace units: \"m\" \"m\" \"m\"\n" GRID,
+                count_up, sizeof count_up);
     write_bytes("sheared.nrrd",
                 NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0.2,2)\n"
                           "space origin: (-10,-20,30)\n\n",
@@ -208,13 +206,12 @@ static void wrong_volumes_are_refused_by_name(void **state)
                 NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) (0,0,0)\n"
                           "space origin: (-10,-20,30)\n\n",
                 count_up, sizeof count_up);
-    write_bytes(
-        "rgb.nrrd",
-        "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain "
-        "domain\nencoding: "
-        "raw\nspace: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: "
-        "(0,0,0)\n\n",
-        count_up, 24);
+    write_bytes("rgb.nrrd",
+                "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain "
+                "domain\nencoding: "
+                "raw\nspace: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: "
+                "(0,0,0)\n\n",
+                count_up, 24);
     write_bytes("label.seg.nrrd",
                 NRRD_HEAD "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.75,0) "
                           "(0,0,2)\nspace origin: (0,0,0)\nSegment0_Name:=Skull\n\n",

@@ -141,7 +141,8 @@ bool audit_make(const case_file *c, const prepared *p, const plan_file *base, co
         ok = make_box(a, k, e);
     }
     ok = ok && judge_create(c, p, &a->judge, e) && find_throughout(a, e);
-    if (ok) audit_tissue_start(a);
+    if (ok)
+        audit_tissue_start(a);
     else {
         judge_free(&a->judge);
         *a = (audit){0};
@@ -217,7 +218,8 @@ bool audit_read_record(uint32_t kind, const void *bytes, size_t size, void *cont
 static int64_t guess(const audit *a, const audit_request *r)
 {
     double nodes = 1;
-    for (int k = 0; k < r->axis_count; k++) nodes *= (a->high[r->axis[k]] - a->low[r->axis[k]]) / (double)a->spacing + 1;
+    for (int k = 0; k < r->axis_count; k++)
+        nodes *= (a->high[r->axis[k]] - a->low[r->axis[k]]) / (double)a->spacing + 1;
     return (int64_t)(nodes * (r->axis_count == 1 ? 1.5 : r->axis_count == 2 ? 0.9 : 0.3));
 }
 
@@ -230,8 +232,11 @@ static bool run(audit *a, int i, err *e)
         return feasible_line_find(&a->points, direction, a->low[r->axis[0]], a->high[r->axis[0]], a->spacing,
                                   &a->line[i], e);
     }
-    feasible_map_params p = {.axis_count = r->axis_count, .spacing = a->spacing, .coarse = COARSE * a->spacing,
-                             .reasons = r->axis_count == 2, .edges = r->axis_count == 2};
+    feasible_map_params p = {.axis_count = r->axis_count,
+                             .spacing = a->spacing,
+                             .coarse = COARSE * a->spacing,
+                             .reasons = r->axis_count == 2,
+                             .edges = r->axis_count == 2};
     for (int k = 0; k < r->axis_count; k++) {
         p.axis[k] = r->axis[k];
         p.low[k] = a->low[r->axis[k]];

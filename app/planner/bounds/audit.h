@@ -29,18 +29,19 @@ typedef struct audit_ray { /* from the base to an end, a side or a corner of the
     int allowed;       /* the last step that bone and teeth allow, without a gap from the base */
     int reach;         /* the last step that the tissue allows too */
     bool limited;      /* by the tissue: reach < allowed */
-    verdict v;         /* of the tissue at `allowed`, or, where limited, of what stops it; of the base where allowed = 0 */
+    verdict v; /* of the tissue at `allowed`, or, where limited, of what stops it; of the base where allowed = 0 */
 } audit_ray;
 
 typedef struct audit {
     const case_file *patient;
     const prepared *prepared;
     audit_settings settings;
-    plan_file base;                      /* opened for the controls */
-    double base_value[SAMPLE_AXES_MAX];  /* of each control */
-    double step;                         /* mm or degrees per step of the lattice, at most the tolerance */
-    int32_t spacing;                     /* steps */
-    int32_t low[SAMPLE_AXES_MAX], high[SAMPLE_AXES_MAX]; /* box in steps: one or two spacings past the limits of moves */
+    plan_file base;                     /* opened for the controls */
+    double base_value[SAMPLE_AXES_MAX]; /* of each control */
+    double step;                        /* mm or degrees per step of the lattice, at most the tolerance */
+    int32_t spacing;                    /* steps */
+    int32_t low[SAMPLE_AXES_MAX],
+        high[SAMPLE_AXES_MAX]; /* box in steps: one or two spacings past the limits of moves */
     /* The least level of each limit at the base, the corners and the middles of the sides of the box. What is there
      * throughout (a caution of the cuts, a midline that no control moves) says nothing about how far to go: it is told
      * apart, and a point counts only what is worse. */
@@ -52,8 +53,9 @@ typedef struct audit {
     tissue_set tissue;
     int ray_count;
     audit_ray *ray;
-    int request_ray[AUDIT_REQUESTS_MAX][27]; /* by direction, digits 0 none, 1 low, 2 high in base 3, first axis first */
-    uint8_t *outside[AUDIT_REQUESTS_MAX];    /* of maps [node_count]: 1 stopped by the tissue, 2 further out than solved */
+    int request_ray[AUDIT_REQUESTS_MAX]
+                   [27];                  /* by direction, digits 0 none, 1 low, 2 high in base 3, first axis first */
+    uint8_t *outside[AUDIT_REQUESTS_MAX]; /* of maps [node_count]: 1 stopped by the tissue, 2 further out than solved */
     /* private */
     judge *judge;
     journal *journal;
@@ -65,8 +67,8 @@ typedef struct audit {
     void *context;
 } audit;
 
-/* Borrows c and p until audit_free. base may be NULL: nothing moves. *out is not to be moved. Refuses (ERR_INPUT) a base
- * that moves a controlled segment by a matrix or lies outside the box; what judge_create refuses. */
+/* Borrows c and p until audit_free. base may be NULL: nothing moves. *out is not to be moved. Refuses (ERR_INPUT) a
+ * base that moves a controlled segment by a matrix or lies outside the box; what judge_create refuses. */
 bool audit_make(const case_file *c, const prepared *p, const plan_file *base, const audit_settings *s, audit *out,
                 err *e) MUST_CHECK;
 void audit_free(audit *a); /* idempotent, leaves zero */
@@ -74,18 +76,19 @@ void audit_free(audit *a); /* idempotent, leaves zero */
 void audit_key(const audit *a, char key[HASH_TEXT_SIZE]);
 /* Judges all requests by bone and teeth. What is judged is kept in the journal and taken from it. */
 bool audit_bones(audit *a, journal *j, err *e) MUST_CHECK;
-/* Then asks the soft tissue at the rim of what bone and teeth allow. Inside the rim it is taken to do what it does on it:
- * a move of the same direction that is smaller strains it less. */
+/* Then asks the soft tissue at the rim of what bone and teeth allow. Inside the rim it is taken to do what it does on
+ * it: a move of the same direction that is smaller strains it less. */
 bool audit_tissue(audit *a, journal *to, err *e) MUST_CHECK;
 /* For journal_open: takes over what was judged earlier; context is the audit. */
 bool audit_read_record(uint32_t kind, const void *bytes, size_t size, void *context, err *e);
 
 double audit_value(const audit *a, int which, double steps); /* from the base's to the control's own */
-/* The finding that decides in a judgement: of the worst level, `throughout` counted as fine, the nearest to its stop. */
+/* The finding that decides in a judgement: of the worst level, `throughout` counted as fine, the nearest to its stop.
+ */
 const finding *audit_decisive(const audit *a, const judgement *j, limit_level *level);
 verdict audit_verdict(const audit *a, const judgement *j);
-bool audit_stopped(void *audit_context); /* interrupted */
-void audit_tissue_start(audit *a);       /* private: part of audit_make */
+bool audit_stopped(void *audit_context);    /* interrupted */
+void audit_tissue_start(audit *a);          /* private: part of audit_make */
 void audit_rim_mark(audit *a, int request); /* what lies outside the rim, into a map */
 bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e);
 /* Where a ray ends. */
@@ -94,4 +97,5 @@ void audit_ray_place(const audit_ray *r, int32_t at[SAMPLE_AXES_MAX]);
 bool audit_not_judged(const audit *a, json_t **out, err *e) MUST_CHECK;
 bool audit_print_not_judged(const audit *a, err *e) MUST_CHECK;
 /* The whole judgement of one point. */
-bool audit_judge(const audit *a, const int32_t at[SAMPLE_AXES_MAX], judgement *out, plan_moves *moves, err *e) MUST_CHECK;
+bool audit_judge(const audit *a, const int32_t at[SAMPLE_AXES_MAX], judgement *out, plan_moves *moves,
+                 err *e) MUST_CHECK;

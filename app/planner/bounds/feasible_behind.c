@@ -5,10 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int32_t common_divisor(int32_t a, int32_t b)
-{
-    return b ? common_divisor(b, a % b) : abs(a);
-}
+static int32_t common_divisor(int32_t a, int32_t b) { return b ? common_divisor(b, a % b) : abs(a); }
 
 /* A stopped node on the ray to the node before it is reached; steps[3] of it from the base. */
 static bool node_before(const feasible_map *m, const int32_t base[3], const int32_t d[3], int32_t steps[3])

@@ -24,8 +24,7 @@ void feasible_map_place(const feasible_map *m, int64_t node, int32_t at[SAMPLE_A
     int32_t i[3];
     node_index(m, node, i);
     memset(at, 0, SAMPLE_AXES_MAX * sizeof *at);
-    for (int k = 0; k < m->params.axis_count; k++)
-        at[m->params.axis[k]] = m->params.low[k] + i[k] * m->params.spacing;
+    for (int k = 0; k < m->params.axis_count; k++) at[m->params.axis[k]] = m->params.low[k] + i[k] * m->params.spacing;
 }
 
 /* Node numbers of the coarse planes of one axis: multiples of `coarse` from the base, and both ends. */
@@ -127,9 +126,12 @@ static void split(const cell *c, struct cells *to)
         bool there = true;
         for (int k = 0; k < 3; k++) {
             int32_t wide = c->high[k] - c->low[k], middle = c->low[k] + wide / 2;
-            if (wide < 2) there = there && !(part >> k & 1);
-            else if (part >> k & 1) one.low[k] = middle;
-            else one.high[k] = middle;
+            if (wide < 2)
+                there = there && !(part >> k & 1);
+            else if (part >> k & 1)
+                one.low[k] = middle;
+            else
+                one.high[k] = middle;
         }
         if (there) push(to, &one);
     }
@@ -147,8 +149,7 @@ static void fill(feasible_map *m, const struct cells *l, uint8_t *filled)
                     int64_t at = node_at(m, i);
                     if (m->judged[at] || filled[at]) continue;
                     filled[at] = 1;
-                    for (int k = 0; k < 3; k++)
-                        corner[k] = 2 * i[k] <= c->low[k] + c->high[k] ? c->low[k] : c->high[k];
+                    for (int k = 0; k < 3; k++) corner[k] = 2 * i[k] <= c->low[k] + c->high[k] ? c->low[k] : c->high[k];
                     m->node[at] = m->node[node_at(m, corner)];
                 }
     }
@@ -218,8 +219,10 @@ static bool find_edges(sample_set *s, feasible_map *m, err *e)
             int32_t middle = (x[i].near + x[i].far) / 2;
             bool worse = sample_set_find(s, at + SAMPLE_AXES_MAX * i)->level >= x[i].worse;
             if (x[i].far - x[i].near < 2) continue;
-            if (worse == x[i].rising) x[i].far = middle;
-            else x[i].near = middle;
+            if (worse == x[i].rising)
+                x[i].far = middle;
+            else
+                x[i].near = middle;
         }
     }
     for (int64_t i = 0; ok && i < n; i++) m->edge[x[i].axis][x[i].node] = (x[i].near + x[i].far) / 2.0;
@@ -243,8 +246,10 @@ bool feasible_map_find(sample_set *s, const feasible_map_params *p, feasible_map
     m.behind = NEW_ARRAY(uint8_t, m.node_count);
     bool ok = refine(s, &m, e) && (!p->edges || find_edges(s, &m, e)) && feasible_map_look_behind(s, &m, e);
     for (int64_t a = 0; ok && a < m.node_count; a++) m.level_count[m.node[a].level]++;
-    if (ok) *out = m;
-    else feasible_map_free(&m);
+    if (ok)
+        *out = m;
+    else
+        feasible_map_free(&m);
     return ok;
 }
 

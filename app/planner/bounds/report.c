@@ -39,8 +39,12 @@ bool audit_bound_of(const audit *a, int request, int end, audit_bound *out, err 
         b.reach = audit_value(a, which, end * b.ray->reach);
         if (end * (b.fine - b.reach) > 0) b.fine = b.reach;
         b.ended = true;
-        b.stop = (finding){.limit = (limit_id)b.ray->v.reason, .where = "", .value = b.ray->v.value,
-                           .level = LIMIT_STOP, .segment_a = -1, .segment_b = -1};
+        b.stop = (finding){.limit = (limit_id)b.ray->v.reason,
+                           .where = "",
+                           .value = b.ray->v.value,
+                           .level = LIMIT_STOP,
+                           .segment_a = -1,
+                           .segment_b = -1};
     }
     *out = b;
     return true;
@@ -60,8 +64,7 @@ static json_t *finding_json(const audit *a, const finding *f)
                           number(f->value), "unit", limit_default[f->limit].unit);
     json_object_set_new(o, "stop", range_json(a->patient->limits[f->limit].stop));
     if (f->estimated) json_object_set_new(o, "estimated", json_true());
-    if (f->has_place)
-        json_object_set_new(o, "place_mm", json_pack("[fff]", f->place[0], f->place[1], f->place[2]));
+    if (f->has_place) json_object_set_new(o, "place_mm", json_pack("[fff]", f->place[0], f->place[1], f->place[2]));
     return o;
 }
 
@@ -91,7 +94,8 @@ static json_t *place_json(const audit *a, const int32_t *at)
     return o;
 }
 
-/* What the tissue says at the end of a ray: the level at the outermost point that bone and teeth allow, or of the stop. */
+/* What the tissue says at the end of a ray: the level at the outermost point that bone and teeth allow, or of the stop.
+ */
 static json_t *ray_json(const audit *a, const audit_ray *r)
 {
     int32_t at[SAMPLE_AXES_MAX];
@@ -113,9 +117,10 @@ static json_t *tissue_json(const audit *a)
         iterations += t->point[i].iterations;
         warm += t->point[i].warm;
     }
-    return json_pack("{ss sI si sI si sI sI}", "contact", "off", "points_that_bone_and_teeth_allow", (json_int_t)allowed, "solves", t->count,
-                     "solves_left_out", (json_int_t)(allowed - t->count), "rounds", t->rounds, "started_from_a_neighbour",
-                     (json_int_t)warm, "iterations", (json_int_t)iterations);
+    return json_pack("{ss sI si sI si sI sI}", "contact", "off", "points_that_bone_and_teeth_allow",
+                     (json_int_t)allowed, "solves", t->count, "solves_left_out", (json_int_t)(allowed - t->count),
+                     "rounds", t->rounds, "started_from_a_neighbour", (json_int_t)warm, "iterations",
+                     (json_int_t)iterations);
 }
 
 static json_t *pieces_json(const audit *a, const feasible_line *l, int which)
@@ -174,8 +179,9 @@ static json_t *map_json(const audit *a, int request)
     if (m->behind_count) {
         int32_t at[SAMPLE_AXES_MAX];
         feasible_map_place(m, m->example, at);
-        json_object_set_new(o, "behind_example",
-                            json_pack("{so so}", "feasible", place_json(a, at), "stopped_before", place_json(a, m->before)));
+        json_object_set_new(
+            o, "behind_example",
+            json_pack("{so so}", "feasible", place_json(a, at), "stopped_before", place_json(a, m->before)));
     }
     if (!a->tissue_asked) return o;
     json_t *rays = json_array();
@@ -183,7 +189,8 @@ static json_t *map_json(const audit *a, int request)
     for (int64_t i = 0; i < m->node_count; i++) further += a->outside[request][i] == 2;
     for (int d = 0; d < 27; d++) {
         int ray = a->request_ray[request][d];
-        if (d < (m->params.axis_count == 2 ? 9 : 27) && ray >= 0) json_array_append_new(rays, ray_json(a, &a->ray[ray]));
+        if (d < (m->params.axis_count == 2 ? 9 : 27) && ray >= 0)
+            json_array_append_new(rays, ray_json(a, &a->ray[ray]));
     }
     json_object_set_new(o, "tissue_rim", rays);
     json_object_set_new(o, "nodes_further_out_than_solved", json_integer(further));
@@ -195,10 +202,10 @@ static json_t *limits_json(const audit *a)
     json_t *list = json_array();
     for (int i = 0; i < LIMIT_COUNT; i++) {
         const limit *l = &limit_default[i];
-        json_t *o = json_pack("{si ss ss ss so so ss}", "number", i, "name", l->name, "what", l->what, "unit", l->unit,
-                              "fine", range_json(a->patient->limits[i].fine), "stop",
-                              range_json(a->patient->limits[i].stop), "source",
-                              a->patient->limit_from_case[i] ? "set by the case" : l->source);
+        json_t *o =
+            json_pack("{si ss ss ss so so ss}", "number", i, "name", l->name, "what", l->what, "unit", l->unit, "fine",
+                      range_json(a->patient->limits[i].fine), "stop", range_json(a->patient->limits[i].stop), "source",
+                      a->patient->limit_from_case[i] ? "set by the case" : l->source);
         json_array_append_new(list, o);
     }
     return list;
@@ -210,14 +217,17 @@ bool audit_json(const audit *a, json_t **out, err *e)
     json_t *lines = json_array(), *maps = json_array(), *one, *always = NULL, *unknown = NULL;
     bool ok = throughout_json(a, &always, e) && audit_not_judged(a, &unknown, e);
     for (int i = 0; ok && i < a->settings.request_count; i++) {
-        if (a->map[i].node_count) json_array_append_new(maps, map_json(a, i));
-        else if ((ok = line_json(a, i, &one, e))) json_array_append_new(lines, one);
+        if (a->map[i].node_count)
+            json_array_append_new(maps, map_json(a, i));
+        else if ((ok = line_json(a, i, &one, e)))
+            json_array_append_new(lines, one);
     }
     if (ok) {
-        *out = json_pack("{ss ss ss ss sf sf sf so sI so so so}", "schema", "gnathos.audit.1", "version", GNATHOS_VERSION,
-                         "case", a->patient->name, "hash", a->prepared->hash, "spacing", a->settings.spacing,
-                         "tolerance", a->settings.tolerance, "step", a->step, "base", place_json(a, zero), "points",
-                         (json_int_t)a->points.count, "bounds", lines, "maps", maps, "limits", limits_json(a));
+        *out =
+            json_pack("{ss ss ss ss sf sf sf so sI so so so}", "schema", "gnathos.audit.1", "version", GNATHOS_VERSION,
+                      "case", a->patient->name, "hash", a->prepared->hash, "spacing", a->settings.spacing, "tolerance",
+                      a->settings.tolerance, "step", a->step, "base", place_json(a, zero), "points",
+                      (json_int_t)a->points.count, "bounds", lines, "maps", maps, "limits", limits_json(a));
         json_object_set_new(*out, "throughout", always);
         json_object_set_new(*out, "not_judged", unknown);
         json_object_set_new(*out, "tissue", a->tissue_asked ? tissue_json(a) : json_null());
@@ -284,9 +294,11 @@ bool audit_print(const audit *a, err *e)
     print_throughout(a);
     if (!audit_print_not_judged(a, e)) return false;
     if (a->tissue_asked)
-        printf("\nsoft tissue solved at %d points on the rim of what bone and teeth allow, of %lld they allow, and without its "
-               "contact with bone: predict has it\n",
-               a->tissue.count, (long long)json_integer_value(json_object_get(solves, "points_that_bone_and_teeth_allow")));
+        printf(
+            "\nsoft tissue solved at %d points on the rim of what bone and teeth allow, of %lld they allow, and without its "
+            "contact with bone: predict has it\n",
+            a->tissue.count,
+            (long long)json_integer_value(json_object_get(solves, "points_that_bone_and_teeth_allow")));
     json_decref(solves);
     printf("\n");
     for (int i = 0; i < a->settings.request_count; i++) {
@@ -296,8 +308,10 @@ bool audit_print(const audit *a, err *e)
         double all = (double)m->node_count / 100;
         printf("%s: %.0f %% fine, %.0f %% caution, %.0f %% stop; ", name, (double)m->level_count[VERDICT_FINE] / all,
                (double)m->level_count[VERDICT_CAUTION] / all, (double)m->level_count[VERDICT_STOP] / all);
-        if (m->base_stopped) printf("the base itself is stopped\n");
-        else if (!m->behind_count) printf("star-shaped about the base\n");
+        if (m->base_stopped)
+            printf("the base itself is stopped\n");
+        else if (!m->behind_count)
+            printf("star-shaped about the base\n");
         else
             printf("not star-shaped: %lld feasible points lie behind infeasible ones, marked in the map\n",
                    (long long)m->behind_count);

@@ -114,8 +114,10 @@ bool sample_set_ask(sample_set *s, const int32_t *at, int64_t count, err *e)
         }
         parallel_for(n, 1, judge_some, b);
         for (int i = 0; i < n; i++) {
-            if (b->done[i]) add(s, &b->one[i]);
-            else if (ok) ok = err_set(e, b->e[i].code, "%s", b->e[i].text);
+            if (b->done[i])
+                add(s, &b->one[i]);
+            else if (ok)
+                ok = err_set(e, b->e[i].code, "%s", b->e[i].text);
         }
     }
     pthread_mutex_destroy(&b->lock);

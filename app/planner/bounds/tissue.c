@@ -1,6 +1,6 @@
-/* Where bone and teeth leave a question to the soft tissue: only at the rim of what they allow. On rays from the base to
- * the ends, sides and corners of the box the outermost allowed point is solved; where the tissue stops it, the ray is
- * halved. Between neighbouring rays the rim runs straight. */
+/* Where bone and teeth leave a question to the soft tissue: only at the rim of what they allow. On rays from the base
+ * to the ends, sides and corners of the box the outermost allowed point is solved; where the tissue stops it, the ray
+ * is halved. Between neighbouring rays the rim runs straight. */
 #include "app/planner/bounds/audit.h"
 #include "app/planner/predict/judge_tissue.h"
 #include "app/planner/predict/plan_tissue.h"
@@ -88,8 +88,10 @@ static bool find_allowed(audit *a, struct halving *h, int32_t *at, int *ray, err
             int32_t p[SAMPLE_AXES_MAX];
             int step = k < a->ray[i].steps ? k : a->ray[i].steps;
             place_on(&a->ray[i], step, p);
-            if (sample_set_find(&a->points, p)->level == VERDICT_STOP) h->bad[i] = step;
-            else h->good[i] = step;
+            if (sample_set_find(&a->points, p)->level == VERDICT_STOP)
+                h->bad[i] = step;
+            else
+                h->good[i] = step;
         }
     }
     for (int count; ok && (count = middles(h, at, ray)) > 0;) {
@@ -104,7 +106,8 @@ static bool find_allowed(audit *a, struct halving *h, int32_t *at, int *ray, err
 }
 
 /* Where the tissue's stop is looked for on a ray. The smallest volume ratio changes smoothly along it: two points
- * close to where the line through its values at both ends meets the limit; half way where that did not halve the gap. */
+ * close to where the line through its values at both ends meets the limit; half way where that did not halve the gap.
+ */
 struct search {
     int good, bad, tried[2];
     double good_value, bad_value; /* margin of the smallest volume ratio; NaN: something else stops */
@@ -191,7 +194,8 @@ static bool find_reach(audit *a, struct search *s, err *e)
 static bool keep_tissue(const tissue_point *p, void *context, err *e)
 {
     audit *a = context;
-    size_t head = offsetof(tissue_point, shift), shift = 3 * (size_t)a->prepared->tissue.mesh.vertex_count * sizeof(float);
+    size_t head = offsetof(tissue_point, shift),
+           shift = 3 * (size_t)a->prepared->tissue.mesh.vertex_count * sizeof(float);
     char *bytes = NEW_ARRAY(char, head + shift);
     memcpy(bytes, p, head);
     memcpy(bytes + head, p->shift, shift);
@@ -202,7 +206,8 @@ static bool keep_tissue(const tissue_point *p, void *context, err *e)
 
 bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 {
-    size_t head = offsetof(tissue_point, shift), shift = 3 * (size_t)a->prepared->tissue.mesh.vertex_count * sizeof(float);
+    size_t head = offsetof(tissue_point, shift),
+           shift = 3 * (size_t)a->prepared->tissue.mesh.vertex_count * sizeof(float);
     if (size != head + shift) return err_set(e, ERR_INPUT, "a record of unknown kind");
     tissue_point p = {0};
     memcpy(&p, bytes, head);
@@ -215,8 +220,8 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 
 /* ---- */
 
-/* Solves what predict --contact off --full solves: contact with bone would take five times as long. What needs the face (incisor show, lower face) only cautions and is left
- * to predict. */
+/* Solves what predict --contact off --full solves: contact with bone would take five times as long. What needs the face
+ * (incisor show, lower face) only cautions and is left to predict. */
 static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
 {
     audit *a = context;
@@ -225,8 +230,11 @@ static bool solve_point(const int32_t *at, const double *start_xyz, void *contex
     plan_tissue t = {0};
     if (!audit_judge(a, at, &bones, &moves, e) || !plan_tissue_make(a->patient, a->prepared, moves.move, false, &t, e))
         return false;
-    equilibrium_problem problem = {.mesh = &t.mesh, .attach = &t.attach, .materials = t.material,
-                                   .material_count = t.material_count, .start_xyz = start_xyz};
+    equilibrium_problem problem = {.mesh = &t.mesh,
+                                   .attach = &t.attach,
+                                   .materials = t.material,
+                                   .material_count = t.material_count,
+                                   .start_xyz = start_xyz};
     memcpy(problem.motion, moves.move, sizeof problem.motion);
     solve_params params = solve_params_default();
     params.load_steps = a->base.load_steps;

@@ -114,8 +114,11 @@ static void solve_some(int64_t begin, int64_t end, void *context)
 
 bool tissue_set_ask(tissue_set *t, const int32_t *at, int count, err *e)
 {
-    struct round r = {.set = t, .point = NEW_ARRAY(tissue_point, count), .done = NEW_ARRAY(bool, count),
-                      .e = NEW_ARRAY(err, count), .number = t->rounds++};
+    struct round r = {.set = t,
+                      .point = NEW_ARRAY(tissue_point, count),
+                      .done = NEW_ARRAY(bool, count),
+                      .e = NEW_ARRAY(err, count),
+                      .number = t->rounds++};
     for (int i = 0; i < count; i++) {
         const int32_t *p = at + SAMPLE_AXES_MAX * (int64_t)i;
         bool known = tissue_set_find(t, p) != NULL;
@@ -125,7 +128,8 @@ bool tissue_set_ask(tissue_set *t, const int32_t *at, int count, err *e)
     parallel_for(r.count + 1, 1, solve_some, &r); /* one more than there are: a last one alone has one core too */
     bool ok = true;
     for (int i = 0; i < r.count; i++) {
-        if (r.done[i]) add(t, &r.point[i]);
+        if (r.done[i])
+            add(t, &r.point[i]);
         else {
             free(r.point[i].shift);
             if (ok) ok = err_set(e, r.e[i].code, "%s", r.e[i].text);

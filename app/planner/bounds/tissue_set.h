@@ -19,9 +19,10 @@ typedef struct tissue_point {
 
 typedef struct tissue_set {
     /* What the caller sets. */
-    const tetmesh *mesh;  /* at rest */
-    bool starts_at_rest;  /* the point 0 is the tissue at rest: points nearest to it start there */
-    /* Solves a point from start_xyz[3*nodes], from rest where that is NULL, and judges the tissue. From many threads. */
+    const tetmesh *mesh; /* at rest */
+    bool starts_at_rest; /* the point 0 is the tissue at rest: points nearest to it start there */
+    /* Solves a point from start_xyz[3*nodes], from rest where that is NULL, and judges the tissue. From many threads.
+     */
     bool (*solve)(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e);
     bool (*keep)(const tissue_point *p, void *context, err *e); /* NULL, or told each new point, one at a time */
     void (*progress)(int done, int count, void *context);       /* of a round; NULL or told */

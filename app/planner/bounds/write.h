@@ -5,12 +5,12 @@
 
 /* What ends the feasible run of a line at one end (-1 low, +1 high). */
 typedef struct audit_bound {
-    bool feasible;         /* false: the base itself is stopped, nothing else is set */
-    double fine, reach;    /* last fine, last feasible value of the control; fine is NaN where the base is not */
-    bool ended, warned;    /* a stop, a caution was met in the box, and by what */
+    bool feasible;      /* false: the base itself is stopped, nothing else is set */
+    double fine, reach; /* last fine, last feasible value of the control; fine is NaN where the base is not */
+    bool ended, warned; /* a stop, a caution was met in the box, and by what */
     finding stop, caution;
-    const audit_ray *ray;  /* of the tissue; NULL: not asked */
-    double bones;          /* where the tissue limits the ray: what bone and teeth allow */
+    const audit_ray *ray; /* of the tissue; NULL: not asked */
+    double bones;         /* where the tissue limits the ray: what bone and teeth allow */
 } audit_bound;
 
 bool audit_bound_of(const audit *a, int request, int end, audit_bound *out, err *e) MUST_CHECK;

@@ -40,6 +40,7 @@ void judge_bite(const judge *j, const plan_moves *m, judgement *out)
     there = planned(j, m, "U3_L", a) && planned(j, m, "U3_R", b);
     add(j, out, LIMIT_CANINE_YAW, there ? a[BACK] - b[BACK] : (double)NAN, there ? NULL : "needs U3_L and U3_R");
     there = planned(j, m, "U1", a) && planned(j, m, "U6_L", b) && planned(j, m, "U6_R", c);
-    double drop = there ? (b[UP] + c[UP]) / 2 - a[UP] : (double)NAN, reach = there ? (b[BACK] + c[BACK]) / 2 - a[BACK] : 1;
+    double drop = there ? (b[UP] + c[UP]) / 2 - a[UP] : (double)NAN,
+           reach = there ? (b[BACK] + c[BACK]) / 2 - a[BACK] : 1;
     add(j, out, LIMIT_OCCLUSAL_PLANE, atan2(drop, reach) * 180 / M_PI, there ? NULL : "needs U1, U6_L and U6_R");
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 static const double spacing_mm = 2; /* of the samples on a cut's face */
-static const double touch_mm = 1.5;  /* and the saw's width: bones that near to each other count as in contact */
+static const double touch_mm = 1.5; /* and the saw's width: bones that near to each other count as in contact */
 
 static const struct cut_row {
     segment_id still, moved;
@@ -15,13 +15,36 @@ static const struct cut_row {
         const char *name, *label;
     } place[CUT_PLACES_MAX];
 } cut_rows[JUDGE_CUTS] = {
-    {SEGMENT_CRANIUM, SEGMENT_MAXILLA, "", LIMIT_LE_FORT_GAP, LIMIT_LE_FORT_STEP, LIMIT_LE_FORT_CONTACT,
-     {{"piriform rim left", "PR_L"}, {"piriform rim right", "PR_R"}, {"buttress left", "ZB_L"}, {"buttress right", "ZB_R"}}},
-    {SEGMENT_DISTAL, SEGMENT_PROXIMAL_LEFT, "left", LIMIT_BSSO_BUCCAL_GAP, LIMIT_BSSO_STEP, LIMIT_BSSO_CONTACT,
+    {SEGMENT_CRANIUM,
+     SEGMENT_MAXILLA,
+     "",
+     LIMIT_LE_FORT_GAP,
+     LIMIT_LE_FORT_STEP,
+     LIMIT_LE_FORT_CONTACT,
+     {{"piriform rim left", "PR_L"},
+      {"piriform rim right", "PR_R"},
+      {"buttress left", "ZB_L"},
+      {"buttress right", "ZB_R"}}},
+    {SEGMENT_DISTAL,
+     SEGMENT_PROXIMAL_LEFT,
+     "left",
+     LIMIT_BSSO_BUCCAL_GAP,
+     LIMIT_BSSO_STEP,
+     LIMIT_BSSO_CONTACT,
      {{"left", "L7_L"}}},
-    {SEGMENT_DISTAL, SEGMENT_PROXIMAL_RIGHT, "right", LIMIT_BSSO_BUCCAL_GAP, LIMIT_BSSO_STEP, LIMIT_BSSO_CONTACT,
+    {SEGMENT_DISTAL,
+     SEGMENT_PROXIMAL_RIGHT,
+     "right",
+     LIMIT_BSSO_BUCCAL_GAP,
+     LIMIT_BSSO_STEP,
+     LIMIT_BSSO_CONTACT,
      {{"right", "L7_R"}}},
-    {SEGMENT_DISTAL, SEGMENT_CHIN, "", LIMIT_CHIN_GAP, LIMIT_CHIN_STEP, LIMIT_CHIN_CONTACT,
+    {SEGMENT_DISTAL,
+     SEGMENT_CHIN,
+     "",
+     LIMIT_CHIN_GAP,
+     LIMIT_CHIN_STEP,
+     LIMIT_CHIN_CONTACT,
      {{"midline", "Pog"}, {"below the foramen left", "MF_L"}, {"below the foramen right", "MF_R"}}}};
 
 static const judge_pair pair_rows[JUDGE_PAIRS] = {
@@ -39,10 +62,7 @@ bool judge_relative(const plan_moves *m, segment_id still, segment_id moved, rig
     return vec_norm(out->t) > 1e-9 || rigid_angle(out) > 1e-9;
 }
 
-static bool is_sagittal(const judge_cut *c)
-{
-    return c->contact == LIMIT_BSSO_CONTACT;
-}
+static bool is_sagittal(const judge_cut *c) { return c->contact == LIMIT_BSSO_CONTACT; }
 
 static void measure_contact(const judge *j, const judge_cut *c, cut_state *out)
 {
@@ -74,8 +94,12 @@ static void measure_all(const judge *j, const judge_cut *c, cut_state *out)
 static void make_cut(judge *j, const struct cut_row *row, const cut_bones *bones, judge_cut *c)
 {
     const head_frame *f = &j->prepared->frame;
-    *c = (judge_cut){.still = row->still, .moved = row->moved, .where = row->where, .gap = row->gap,
-                     .step = row->step, .contact = row->contact};
+    *c = (judge_cut){.still = row->still,
+                     .moved = row->moved,
+                     .where = row->where,
+                     .gap = row->gap,
+                     .step = row->step,
+                     .contact = row->contact};
     c->face = cut_face_make(bones, row->moved, row->still, spacing_mm);
     c->back = cut_face_make(bones, row->still, row->moved, spacing_mm);
     c->there = c->face.count && c->back.count;
@@ -163,10 +187,10 @@ static void measure(const judge *j, const plan_moves *m, void (*with)(const judg
 
 static const char *cut_name(const judge_cut *c)
 {
-    return c->moved == SEGMENT_MAXILLA          ? "Le Fort I"
-           : c->moved == SEGMENT_CHIN           ? "chin"
-           : c->moved == SEGMENT_PROXIMAL_LEFT  ? "split left"
-                                                : "split right";
+    return c->moved == SEGMENT_MAXILLA         ? "Le Fort I"
+           : c->moved == SEGMENT_CHIN          ? "chin"
+           : c->moved == SEGMENT_PROXIMAL_LEFT ? "split left"
+                                               : "split right";
 }
 
 /* Openings and steps of one limit at all places of all cuts that it is about. */
@@ -261,8 +285,8 @@ void judge_bones(const judge *j, const plan_moves *m, judgement *out)
 
 void judge_places(const judge *j, const plan_moves *m, judgement *out)
 {
-    static const limit_id of[] = {LIMIT_LE_FORT_GAP, LIMIT_LE_FORT_STEP, LIMIT_BSSO_BUCCAL_GAP, LIMIT_BSSO_STEP,
-                                  LIMIT_CHIN_GAP,    LIMIT_CHIN_STEP};
+    static const limit_id of[] = {LIMIT_LE_FORT_GAP, LIMIT_LE_FORT_STEP, LIMIT_BSSO_BUCCAL_GAP,
+                                  LIMIT_BSSO_STEP,   LIMIT_CHIN_GAP,     LIMIT_CHIN_STEP};
     cut_state state[JUDGE_CUTS];
     measure(j, m, NULL, state);
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) add_places(j, m, state, of[i], out);

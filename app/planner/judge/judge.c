@@ -4,8 +4,8 @@
 #include <assert.h>
 #include <stdlib.h>
 
-finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value,
-                       bool estimated, const char *note)
+finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value, bool estimated,
+                       const char *note)
 {
     assert(out->count < FINDINGS_MAX);
     finding *f = &out->finding[out->count];
@@ -19,8 +19,8 @@ finding *judgement_add(judgement *out, const case_file *c, limit_id id, const ch
                    .segment_b = -1,
                    .note = note};
     if (estimated && f->level == LIMIT_STOP) f->level = LIMIT_CAUTION;
-    if (f->level > out->worst || (f->level == out->worst && out->reason >= 0 &&
-                                  f->margin < out->finding[out->reason].margin))
+    if (f->level > out->worst ||
+        (f->level == out->worst && out->reason >= 0 && f->margin < out->finding[out->reason].margin))
         out->reason = out->count;
     if (f->level > out->worst) out->worst = f->level;
     out->count++;
@@ -44,7 +44,8 @@ static void find_carriers(judge *j)
     for (int32_t i = 0; i < l->count; i++) {
         double least = HUGE_VAL;
         for (int s = 0; s < SEGMENT_COUNT; s++) {
-            double d = j->body[s] ? distance_tree_between(clash_body_tree(j->body[s]), l->point[i].xyz, 0, least, NULL) : HUGE_VAL;
+            double d = j->body[s] ? distance_tree_between(clash_body_tree(j->body[s]), l->point[i].xyz, 0, least, NULL)
+                                  : HUGE_VAL;
             if (d >= least) continue;
             least = d;
             j->carrier[i] = s;

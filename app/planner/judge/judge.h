@@ -41,5 +41,5 @@ void judge_plan(const judge *j, const plan_moves *m, judgement *out);
 
 /* Appends a finding and keeps worst and reason; value NaN with a note: not judged. Returns it, to be filled further
  * (before the next one). */
-finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value,
-                       bool estimated, const char *note);
+finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value, bool estimated,
+                       const char *note);

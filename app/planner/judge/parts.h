@@ -23,8 +23,8 @@ typedef struct judge_cut {
     const char *where; /* "", "left", "right" */
     limit_id gap, step, contact;
     bool there;
-    cut_face face, back;         /* of the moved bone and of the still one */
-    cut_face plate;              /* of `face`: what is in contact side by side; BSSO only */
+    cut_face face, back; /* of the moved bone and of the still one */
+    cut_face plate;      /* of `face`: what is in contact side by side; BSSO only */
     distance_tree *face_tree, *back_tree;
     int place_count;
     judge_place place[CUT_PLACES_MAX];
@@ -45,7 +45,8 @@ struct judge {
     clash_body *body[SEGMENT_COUNT];
     judge_cut cut[JUDGE_CUTS];
     judge_pair pair[JUDGE_PAIRS];
-    double canal[2][3 * CANAL_POINTS_MAX]; /* left, right: the estimated course, one point per millimetre or so, without its mouth */
+    double canal[2][3 * CANAL_POINTS_MAX]; /* left, right: the estimated course, one point per millimetre or so, without
+                                              its mouth */
     int canal_count[2];
     const char *no_crowns; /* why the crowns are not known; NULL: they are */
     double tooth_rest_mm;  /* overlap of the crowns in the scan */

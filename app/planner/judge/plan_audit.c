@@ -15,10 +15,7 @@ void plan_audit_make(const judge *j, const case_file *c, const prepared *p, cons
     }
 }
 
-bool plan_audit_infeasible(const plan_audit *a)
-{
-    return a->judgement.worst == LIMIT_STOP && !*a->plan->override;
-}
+bool plan_audit_infeasible(const plan_audit *a) { return a->judgement.worst == LIMIT_STOP && !*a->plan->override; }
 
 /* "3 to 6", "at least 5", "at most 3", "-". */
 static const char *range_words(const double r[2], char text[48])
@@ -61,8 +58,9 @@ void plan_audit_print(const plan_audit *a)
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < j->count; i++)
             if (j->finding[i].level == order[k]) print_finding(a, &j->finding[i], a->remedy[i]);
-    printf("\nThe soft tissue (stretch, incisor show, proportions) is judged by gnathos predict. ->: the smallest single "
-           "change of the plan that brings the limit to the next better level and none to a worse one.\n");
+    printf(
+        "\nThe soft tissue (stretch, incisor show, proportions) is judged by gnathos predict. ->: the smallest single "
+        "change of the plan that brings the limit to the next better level and none to a worse one.\n");
     if (j->worst != LIMIT_STOP) return;
     if (*a->plan->override)
         printf("Stops accepted because: %s\n", a->plan->override);
@@ -70,10 +68,7 @@ void plan_audit_print(const plan_audit *a)
         printf("Not feasible as it stands. Change the plan, or say why in \"override\".\n");
 }
 
-static json_t *number(double v)
-{
-    return isfinite(v) ? json_real(v) : json_null();
-}
+static json_t *number(double v) { return isfinite(v) ? json_real(v) : json_null(); }
 
 static json_t *range_json(const double r[2])
 {
@@ -85,9 +80,9 @@ static json_t *finding_json(const finding *f, const case_file *c)
 {
     const limit *l = &limit_default[f->limit];
     const limit_range *r = &c->limits[f->limit];
-    json_t *o = json_pack("{ss ss ss ss so so so so sb ss}", "limit", l->name, "where", f->where, "what", l->what, "level",
-                          limit_level_name(f->level), "value", number(f->value), "fine", range_json(r->fine), "stop",
-                          range_json(r->stop), "margin", number(f->margin), "estimated", f->estimated, "source",
+    json_t *o = json_pack("{ss ss ss ss so so so so sb ss}", "limit", l->name, "where", f->where, "what", l->what,
+                          "level", limit_level_name(f->level), "value", number(f->value), "fine", range_json(r->fine),
+                          "stop", range_json(r->stop), "margin", number(f->margin), "estimated", f->estimated, "source",
                           c->limit_from_case[f->limit] ? "set by the case" : l->source);
     if (*l->unit) json_object_set_new(o, "unit", json_string(l->unit));
     if (f->has_place) json_object_set_new(o, "place_lps_mm", json_pack("[fff]", f->place[0], f->place[1], f->place[2]));
@@ -102,8 +97,7 @@ json_t *judgement_json(const judgement *j, const case_file *c, const char *overr
     json_t *list = json_array();
     for (int i = 0; i < j->count; i++) json_array_append_new(list, finding_json(&j->finding[i], c));
     json_t *o = json_pack("{ss ss so}", "worst", limit_level_name(j->worst), "override", override, "limits", list);
-    if (j->reason >= 0)
-        json_object_set_new(o, "decides", json_string(limit_default[j->finding[j->reason].limit].name));
+    if (j->reason >= 0) json_object_set_new(o, "decides", json_string(limit_default[j->finding[j->reason].limit].name));
     return o;
 }
 
@@ -111,8 +105,7 @@ json_t *plan_audit_json(const plan_audit *a)
 {
     json_t *o = judgement_json(&a->judgement, a->patient, a->plan->override), *list = json_object_get(o, "limits");
     for (int i = 0; i < a->judgement.count; i++)
-        if (*a->remedy[i])
-            json_object_set_new(json_array_get(list, (size_t)i), "remedy", json_string(a->remedy[i]));
+        if (*a->remedy[i]) json_object_set_new(json_array_get(list, (size_t)i), "remedy", json_string(a->remedy[i]));
     json_object_set_new(o, "case", json_string(a->patient->name));
     json_object_set_new(o, "plan", json_string(a->plan->name));
     json_object_set_new(o, "feasible", json_boolean(!plan_audit_infeasible(a)));
@@ -140,9 +133,10 @@ bool judgement_allows(const judgement *j, const case_file *c, const plan_file *p
     const finding *f = &j->finding[j->reason];
     const limit *l = &limit_default[f->limit];
     char stop[48];
-    return err_at(e, ERR_INFEASIBLE, plan->path, 0, NULL,
-                  "%s%s%s is %.4g, must be %s: %s. Change the plan (gnathos audit CASE --plan names what would help), or "
-                  "say why in \"override\"",
-                  l->name, *f->where ? ", " : "", f->where, f->value, range_words(c->limits[f->limit].stop, stop),
-                  c->limit_from_case[f->limit] ? "set by the case" : l->source);
+    return err_at(
+        e, ERR_INFEASIBLE, plan->path, 0, NULL,
+        "%s%s%s is %.4g, must be %s: %s. Change the plan (gnathos audit CASE --plan names what would help), or "
+        "say why in \"override\"",
+        l->name, *f->where ? ", " : "", f->where, f->value, range_words(c->limits[f->limit].stop, stop),
+        c->limit_from_case[f->limit] ? "set by the case" : l->source);
 }

@@ -18,9 +18,8 @@ typedef struct change {
 static plan_file opened(const plan_file *plan, const head_frame *f)
 {
     plan_file p = *plan;
-    const double mm[3][2] = {{p.maxilla_advance_mm, p.maxilla_impaction_mm},
-                             {p.mandible_advance_mm, 0},
-                             {p.chin_advance_mm, 0}};
+    const double mm[3][2] = {
+        {p.maxilla_advance_mm, p.maxilla_impaction_mm}, {p.mandible_advance_mm, 0}, {p.chin_advance_mm, 0}};
     static const segment_id segment[3] = {SEGMENT_MAXILLA, SEGMENT_DISTAL, SEGMENT_CHIN};
     for (int i = 0; i < 3; i++) {
         plan_segment *s = &p.segment[segment[i]];
@@ -156,8 +155,9 @@ static bool concerns(const finding *f, segment_id s)
 
 static void say(change c, double by, char text[REMEDY_TEXT_SIZE])
 {
-    static const char *const how[SHIFTS + TURNS] = {"mm forwards", "mm back",      "mm up",       "mm down",      "mm to the left",
-                                                    "mm to the right", "deg less pitch", "deg less yaw", "deg less roll"};
+    static const char *const how[SHIFTS + TURNS] = {"mm forwards",    "mm back",        "mm up",
+                                                    "mm down",        "mm to the left", "mm to the right",
+                                                    "deg less pitch", "deg less yaw",   "deg less roll"};
     const char *bone = c.segment == SEGMENT_DISTAL ? "mandible" : segment_name(c.segment);
     snprintf(text, REMEDY_TEXT_SIZE, "%s %.2f %s", bone, by, how[c.kind]);
 }

@@ -5,7 +5,7 @@
 #include "geometry/vec.h"
 #include <stdlib.h>
 
-static const double crown_mm = 7, beyond_mm = 5; /* of the cusps' plane, towards the gum and away from it */
+static const double crown_mm = 7, beyond_mm = 5;         /* of the cusps' plane, towards the gum and away from it */
 static const double behind_u6_mm = 18, behind_l7_mm = 3; /* mesiobuccal cusp of the first molar to the arch's end */
 static const double touch_mm = 0.3, sight_mm = 10, bite_spacing_mm = 0.8, apart_mm = 5;
 
@@ -94,8 +94,7 @@ void judge_teeth_make(judge *j)
     if (j->no_crowns || j->jaws_apart) return;
     rigid rest = rigid_identity();
     find_bite_points(j);
-    j->tooth_rest_mm =
-        clash_depth(j->body[SEGMENT_MAXILLA], j->body[SEGMENT_DISTAL], &rest, KIND_CROWN).mm;
+    j->tooth_rest_mm = clash_depth(j->body[SEGMENT_MAXILLA], j->body[SEGMENT_DISTAL], &rest, KIND_CROWN).mm;
 }
 
 /* Places, at least apart_mm from each other, where a lower crown is at an upper one. */
@@ -113,7 +112,8 @@ static int count_contacts(const judge *j, const rigid *rel)
         for (int k = 0; k < count && !known; k++) known = vec_distance(found[k], p) < apart_mm;
         if (known) continue;
         double clear;
-        if (!solid_grid_look(grid, p, &clear) && !(clear < touch_mm && distance_tree_within(tree, p, touch_mm))) continue;
+        if (!solid_grid_look(grid, p, &clear) && !(clear < touch_mm && distance_tree_within(tree, p, touch_mm)))
+            continue;
         vec_copy(p, found[count++]);
     }
     return count;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool read_solid(const case_file *c, case_surface which, surface *raw, surface *solid,
-                       repair_report *report, err *e)
+static bool read_solid(const case_file *c, case_surface which, surface *raw, surface *solid, repair_report *report,
+                       err *e)
 {
     repair_params p = repair_params_default();
     surface in = {0};
@@ -25,8 +25,8 @@ static bool read_solid(const case_file *c, case_surface which, surface *raw, sur
 }
 
 /* A bone, united with its teeth where the case has them apart. */
-static bool read_bone(const case_file *c, case_surface bone, case_surface teeth, surface *out,
-                      repair_report *report, err *e)
+static bool read_bone(const case_file *c, case_surface bone, case_surface teeth, surface *out, repair_report *report,
+                      err *e)
 {
     surface part[2] = {{0}};
     if (!read_solid(c, bone, NULL, &part[0], report, e)) return false;
@@ -57,8 +57,8 @@ static bool user_planes(const case_file *c, cut_plane **out, int *count, err *e)
             free(all);
             free(*out);
             *out = NULL;
-            return err_at(e, ERR_INPUT, c->planes, 0, NULL,
-                          "has no plane \"%s\", which an osteotomy of the case needs", o->plane);
+            return err_at(e, ERR_INPUT, c->planes, 0, NULL, "has no plane \"%s\", which an osteotomy of the case needs",
+                          o->plane);
         }
         *out = GROW_ARRAY(cut_plane, *out, *count + 1);
         cut_plane *p = &(*out)[(*count)++];
@@ -83,13 +83,11 @@ static bool cut(const case_file *c, anatomy *a, err *e)
     return ok;
 }
 
-bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out,
-                  err *e)
+bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out, err *e)
 {
     anatomy a = {0};
     task_progress(watch, "reading and repairing the surfaces", 0);
-    bool ok = landmarks_read(c->landmarks, &a.points, NULL, e) &&
-              head_frame_from_landmarks(&a.points, &a.frame, e) &&
+    bool ok = landmarks_read(c->landmarks, &a.points, NULL, e) && head_frame_from_landmarks(&a.points, &a.frame, e) &&
               read_bone(c, CASE_SKULL, CASE_UPPER_TEETH, &a.skull, &a.skull_repair, e) &&
               read_bone(c, CASE_MANDIBLE, CASE_LOWER_TEETH, &a.mandible, &a.mandible_repair, e) &&
               (!skin || read_solid(c, CASE_SKIN, &a.skin, &a.closed_skin, &a.skin_repair, e));

@@ -4,15 +4,15 @@
 #include <math.h>
 #include <string.h>
 
-#define SURFACE(word, id, needed, help_)                                                                     \
-    {                                                                                                        \
-        .name = "surfaces." word, .kind = FIELD_FILE, .offset = offsetof(case_file, surface[id]),            \
-        .required = needed, .help = help_                                                                    \
+#define SURFACE(word, id, needed, help_)                                                                               \
+    {                                                                                                                  \
+        .name = "surfaces." word, .kind = FIELD_FILE, .offset = offsetof(case_file, surface[id]), .required = needed,  \
+        .help = help_                                                                                                  \
     }
-#define MATERIAL(member, unit_, low_, high_, help_)                                                          \
-    {                                                                                                        \
-        .name = "tissue." #member, .kind = FIELD_NUMBER, .offset = offsetof(case_file, material.member),     \
-        .unit = unit_, low_, high_, .help = help_                                                            \
+#define MATERIAL(member, unit_, low_, high_, help_)                                                                    \
+    {                                                                                                                  \
+        .name = "tissue." #member, .kind = FIELD_NUMBER, .offset = offsetof(case_file, material.member),               \
+        .unit = unit_, low_, high_, .help = help_                                                                      \
     }
 #define CASE(member, unit_, low_, high_, help_) NUMBER(case_file, member, unit_, low_, high_, help_)
 
@@ -37,8 +37,7 @@ static const field rows[] = {
      .words = "LPS RAS",
      .help = "Axes of meshes that carry no SPACE tag: LPS is +x left, +y posterior, +z up; RAS meshes are "
              "turned."},
-    SURFACE("skin", CASE_SKIN, true,
-            "Skin of the head (.ply .stl .obj .off .gltf .glb); may be open at the neck."),
+    SURFACE("skin", CASE_SKIN, true, "Skin of the head (.ply .stl .obj .off .gltf .glb); may be open at the neck."),
     SURFACE("skull", CASE_SKULL, true, "Skull with the maxilla, without the mandible."),
     SURFACE("mandible", CASE_MANDIBLE, true, "Mandible."),
     SURFACE("upper_teeth", CASE_UPPER_TEETH, false, "Upper teeth where they are not part of the skull."),
@@ -63,25 +62,20 @@ static const field rows[] = {
     CASE(cuts.foramen_clearance_mm, "mm", FROM(0), TO(15),
          "Distance of the Le Fort I cut from the infraorbital foramen."),
     CASE(cuts.palate_clearance_mm, "mm", FROM(0), TO(15), "Height of the Le Fort I cut above the palate."),
-    CASE(cuts.le_fort_raise_mm, "mm", FROM(0), TO(15),
-         "Most that the Le Fort I cut is raised to clear the root tips."),
-    CASE(cuts.above_lingula_mm, "mm", FROM(0), TO(10),
-         "Height of the sagittal split's medial cut above the lingula."),
+    CASE(cuts.le_fort_raise_mm, "mm", FROM(0), TO(15), "Most that the Le Fort I cut is raised to clear the root tips."),
+    CASE(cuts.above_lingula_mm, "mm", FROM(0), TO(10), "Height of the sagittal split's medial cut above the lingula."),
     CASE(cuts.behind_lingula_mm, "mm", FROM(0), TO(15), "End of the medial cut behind the lingula."),
     CASE(cuts.buccal_depth_mm, "mm", FROM(1), TO(10), "Thickest lateral plate that the sagittal cut leaves."),
     CASE(cuts.ramus_depth_share, NULL, FROM(0.2), TO(0.8),
          "The lateral plate's share of the bone where that is thinner."),
-    CASE(cuts.canal_clearance_mm, "mm", FROM(0), TO(10),
-         "Distance of the sagittal cut from the middle of the canal."),
+    CASE(cuts.canal_clearance_mm, "mm", FROM(0), TO(10), "Distance of the sagittal cut from the middle of the canal."),
     CASE(cuts.lingula_width_share, NULL, FROM(0.2), TO(0.8),
          "Place of a missing lingula: share of the ramus from behind."),
     CASE(cuts.lingula_height_share, NULL, FROM(0.2), TO(0.9),
          "Place of a missing lingula: share of the ramus from below."),
-    CASE(cuts.below_mental_foramen_mm, "mm", FROM(0), TO(15),
-         "Distance of the genioplasty below the mental foramina."),
+    CASE(cuts.below_mental_foramen_mm, "mm", FROM(0), TO(15), "Distance of the genioplasty below the mental foramina."),
     CASE(cuts.chin_height_mm, "mm", FROM(0), TO(30), "Height of the chin piece kept at the midline."),
-    CASE(cuts.fragment_mm3, "mm3", FROM(0), TO(100000),
-         "Islands smaller than this go to the piece next to them."),
+    CASE(cuts.fragment_mm3, "mm3", FROM(0), TO(100000), "Islands smaller than this go to the piece next to them."),
     CASE(tissue.element_mm, "mm", FROM(0.5), TO(20), "Edge length of tetrahedra at lips, nose and chin."),
     CASE(tissue.coarse_mm, "mm", FROM(0.5), TO(40), "Largest edge length, far from them."),
     CASE(tissue.growth, "mm/mm", FROM(0), TO(2), "Growth of the edge length per mm of distance."),
@@ -91,10 +85,8 @@ static const field rows[] = {
     CASE(tissue.touch_mm, "mm", FROM(0), TO(10), "Tissue nodes nearer to bone than this are moved onto it."),
     CASE(tissue.cut_band_mm, "mm", FROM(0), TO(20),
          "Half width of the strip along a saw cut where tissue hangs loose."),
-    CASE(tissue.vestibule_upper_mm, "mm", FROM(0), TO(40),
-         "Depth of the upper vestibule from the incisal edge."),
-    CASE(tissue.vestibule_lower_mm, "mm", FROM(0), TO(40),
-         "Depth of the lower vestibule from the incisal edge."),
+    CASE(tissue.vestibule_upper_mm, "mm", FROM(0), TO(40), "Depth of the upper vestibule from the incisal edge."),
+    CASE(tissue.vestibule_lower_mm, "mm", FROM(0), TO(40), "Depth of the lower vestibule from the incisal edge."),
     CASE(tissue.coronal_mm, "mm", FROM(-60), TO(100), "The rear end of the tissue, behind the porions."),
     CASE(tissue.neck_mm, "mm", FROM(-20), TO(100), "The lower end of the tissue, below menton."),
     CASE(tissue.brow_mm, "mm", FROM(-20), TO(100), "The upper end of the tissue, above nasion."),
@@ -102,22 +94,22 @@ static const field rows[] = {
          "Cut faces of the tissue farther than this from moving bone are fixed."),
     MATERIAL(young_kpa, "kPa", ABOVE(0), TO(100000),
              "Stiffness; it does not change the shape while only bones move it."),
-    MATERIAL(poisson, NULL, FROM(0), TO(0.499),
-             "Poisson's ratio; near 0.5 the element matters."),
+    MATERIAL(poisson, NULL, FROM(0), TO(0.499), "Poisson's ratio; near 0.5 the element matters."),
     {.name = "tissue.element",
      .kind = FIELD_WORD,
      .offset = offsetof(case_file, material.element),
      .words = "auto linear averaged",
-     .help = "linear: tetrahedra of one strain each, which stiffen falsely (lock) near Poisson's ratio 0.5; averaged: "
-             "with volume changes averaged around each node (what exceeds Poisson's ratio 0.4), dearer and without that; "
-             "auto: averaged from 0.48 on."},
-#define LIMIT(id, field, part, unit_, help_)                                                                  \
-    {                                                                                                        \
-        .name = "limits." #field "." #part, .kind = FIELD_RANGE,                                             \
-        .offset = offsetof(case_file, limits[LIMIT_##id].part), .unit = unit_, FROM(-LIMIT_OPEN),            \
-        TO(LIMIT_OPEN), .help = help_ "."                                                                    \
+     .help =
+         "linear: tetrahedra of one strain each, which stiffen falsely (lock) near Poisson's ratio 0.5; averaged: "
+         "with volume changes averaged around each node (what exceeds Poisson's ratio 0.4), dearer and without that; "
+         "auto: averaged from 0.48 on."},
+#define LIMIT(id, field, part, unit_, help_)                                                                           \
+    {                                                                                                                  \
+        .name = "limits." #field "." #part, .kind = FIELD_RANGE,                                                       \
+        .offset = offsetof(case_file, limits[LIMIT_##id].part), .unit = unit_, FROM(-LIMIT_OPEN), TO(LIMIT_OPEN),      \
+        .help = help_ "."                                                                                              \
     }
-#define X(id, field, unit, f0, f1, s0, s1, what, source)                                                     \
+#define X(id, field, unit, f0, f1, s0, s1, what, source)                                                               \
     LIMIT(id, field, fine, unit, "Fine within: " what), LIMIT(id, field, stop, unit, "Refused outside: " source),
     LIMITS(X)
 #undef X
@@ -126,8 +118,7 @@ static const field rows[] = {
 const field_table *case_fields(void)
 {
     static case_file defaults;
-    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0],
-                                      &defaults};
+    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0], &defaults};
     defaults = case_file_default();
     return &table;
 }

@@ -8,15 +8,9 @@
 static const char *const cut_names[] = {"le_fort_1", "bsso", "genioplasty"};
 static const char *const surface_names[] = {"skin", "skull", "mandible", "upper_teeth", "lower_teeth"};
 
-const char *case_surface_name(case_surface s)
-{
-    return surface_names[s];
-}
+const char *case_surface_name(case_surface s) { return surface_names[s]; }
 
-mesh_space case_file_space(const case_file *c)
-{
-    return c->frame == CASE_RAS ? MESH_SPACE_RAS : MESH_SPACE_LPS;
-}
+mesh_space case_file_space(const case_file *c) { return c->frame == CASE_RAS ? MESH_SPACE_RAS : MESH_SPACE_LPS; }
 
 case_file case_file_default(void)
 {
@@ -44,26 +38,22 @@ bool case_file_frees(const case_file *c, segment_id segment)
     for (int i = 0; i < c->osteotomy_count; i++)
         if (c->osteotomy[i].cut == CUT_USER &&
             (c->osteotomy[i].segment == segment ||
-             (segment == SEGMENT_DISTAL && (c->osteotomy[i].segment == SEGMENT_PROXIMAL_LEFT ||
-                                            c->osteotomy[i].segment == SEGMENT_PROXIMAL_RIGHT))))
+             (segment == SEGMENT_DISTAL &&
+              (c->osteotomy[i].segment == SEGMENT_PROXIMAL_LEFT || c->osteotomy[i].segment == SEGMENT_PROXIMAL_RIGHT))))
             return true;
     switch (segment) {
-    case SEGMENT_MAXILLA:
-        return case_file_cuts(c, CUT_LE_FORT_1);
+    case SEGMENT_MAXILLA: return case_file_cuts(c, CUT_LE_FORT_1);
     case SEGMENT_DISTAL:
     case SEGMENT_PROXIMAL_LEFT:
-    case SEGMENT_PROXIMAL_RIGHT:
-        return case_file_cuts(c, CUT_BSSO);
-    case SEGMENT_CHIN:
-        return case_file_cuts(c, CUT_GENIOPLASTY);
-    default:
-        return false;
+    case SEGMENT_PROXIMAL_RIGHT: return case_file_cuts(c, CUT_BSSO);
+    case SEGMENT_CHIN: return case_file_cuts(c, CUT_GENIOPLASTY);
+    default: return false;
     }
 }
 
 /* One of the object's texts, copied; an issue and false if it is missing or wrong. */
-static bool read_text(const json_file *f, const json_t *o, const char *pointer, const char *key, char *out,
-                      size_t size, issue_list *issues)
+static bool read_text(const json_file *f, const json_t *o, const char *pointer, const char *key, char *out, size_t size,
+                      issue_list *issues)
 {
     char place[128];
     snprintf(place, sizeof place, "%s/%s", pointer, key);
@@ -102,8 +92,8 @@ static bool read_user_cut(const json_file *f, const json_t *o, const char *point
         int id = segment_from_name(segment);
         if (id <= SEGMENT_CRANIUM || id == SEGMENT_DISTAL) {
             snprintf(place, sizeof place, "%s/segment", pointer);
-            fields_issue(f, place, issues,
-                         "is \"%s\"; must be one of: maxilla proximal_left proximal_right chin", segment);
+            fields_issue(f, place, issues, "is \"%s\"; must be one of: maxilla proximal_left proximal_right chin",
+                         segment);
             ok = false;
         } else {
             one.segment = (segment_id)id;
@@ -155,11 +145,9 @@ static void read_osteotomies(const json_file *f, case_file *c, issue_list *issue
                 fields_issue(f, place, issues, "%s is listed twice", word);
                 ok = false;
             } else if (!ok && near >= 0) {
-                fields_issue(f, place, issues, "unknown cut \"%s\"; did you mean \"%s\"?", word,
-                             cut_names[near]);
+                fields_issue(f, place, issues, "unknown cut \"%s\"; did you mean \"%s\"?", word, cut_names[near]);
             } else if (!ok) {
-                fields_issue(f, place, issues,
-                             "unknown cut %s; known are: le_fort_1 bsso genioplasty, or an object",
+                fields_issue(f, place, issues, "unknown cut %s; known are: le_fort_1 bsso genioplasty, or an object",
                              fields_value_words(v, got, sizeof got));
             }
         }
@@ -203,8 +191,8 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues)
     int errors = issue_count(issues, ISSUE_ERROR), from = issues->count;
     *c = case_file_default();
     if (!set_paths(path, c)) {
-        issue_add(issues, ISSUE_ERROR, ERR_INPUT, NULL, 0, NULL,
-                  "the path of the case has more than %d bytes", FIELD_PATH_SIZE - 1);
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, NULL, 0, NULL, "the path of the case has more than %d bytes",
+                  FIELD_PATH_SIZE - 1);
         return false;
     }
     if (!json_file_read(c->path, &f, &e)) {
@@ -215,10 +203,8 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues)
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL, "must be an object { ... }");
     } else if (!json_object_get(f.root, "surfaces") && json_object_get(f.root, "gnathos") &&
                (json_object_get(f.root, "segments") || json_object_get(f.root, "maxilla_advance_mm") ||
-                json_object_get(f.root, "mandible_advance_mm") ||
-                json_object_get(f.root, "chin_advance_mm"))) {
-        issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL,
-                  "is a plan, not a case; a case names its surfaces");
+                json_object_get(f.root, "mandible_advance_mm") || json_object_get(f.root, "chin_advance_mm"))) {
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL, "is a plan, not a case; a case names its surfaces");
     } else {
         fields_read(case_fields(), &f, f.root, "", c, issues);
         read_osteotomies(&f, c, issues);

@@ -34,15 +34,14 @@ static void check_set(const case_file *c, const landmarks *l, issue_list *issues
         }
         const char *are = strchr(both, ',') ? "are" : "is";
         if (landmark_is_needed(r, c) && r->instead && strstr(both, r->instead))
-            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both,
-                      "are missing, one of them is needed (%s)", r->help);
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both, "are missing, one of them is needed (%s)",
+                      r->help);
         else if (landmark_is_needed(r, c))
-            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both, "%s missing (%s)%s%s%s", are,
-                      r->help, r->instead ? "; " : "", r->instead ? r->instead : "",
-                      r->instead ? " would do as well" : "");
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, both, "%s missing (%s)%s%s%s", are, r->help,
+                      r->instead ? "; " : "", r->instead ? r->instead : "", r->instead ? " would do as well" : "");
         else if (r->lost && !r->instead)
-            issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, both, "is missing (%s); lost: %s",
-                      r->help, r->lost);
+            issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, both, "is missing (%s); lost: %s", r->help,
+                      r->lost);
     }
     char unknown[600] = "";
     int count = 0;
@@ -55,8 +54,8 @@ static void check_set(const case_file *c, const landmarks *l, issue_list *issues
         snprintf(unknown + used, sizeof unknown - used, "%s%s", count++ ? ", " : "", l->point[i].label);
     }
     if (count)
-        issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, NULL, "%d unknown labels are ignored: %s",
-                  count, unknown);
+        issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, NULL, "%d unknown labels are ignored: %s", count,
+                  unknown);
 }
 
 /* The surface that should carry the landmark. Teeth that are not a file of their own are part of the bone. */
@@ -69,8 +68,7 @@ static case_surface carrier(const landmark_row *r, const check_found *found)
 
 /* A landmark far from its surface is a slip of the hand; many of them belong to another patient, frame or
  * unit. */
-static void check_distance_to(const case_file *c, const check_found *found, case_surface on,
-                              issue_list *issues)
+static void check_distance_to(const case_file *c, const check_found *found, case_surface on, issue_list *issues)
 {
     enum { MANY = 3 };
     const double doubtful_mm = 5, wrong_mm = 50;
@@ -94,9 +92,8 @@ static void check_distance_to(const case_file *c, const check_found *found, case
                 if (d <= wrong_mm) continue;
                 snprintf(far + used, sizeof far - used, "%s%s", wrong++ ? ", " : "", r->label);
             } else if (d > doubtful_mm && (wrong < MANY || d <= wrong_mm)) {
-                issue_add(issues, d > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0,
-                          r->label, "lies %.1f mm from the %s; it should lie on it", d,
-                          case_surface_name(on));
+                issue_add(issues, d > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0, r->label,
+                          "lies %.1f mm from the %s; it should lie on it", d, case_surface_name(on));
             }
         }
     }
@@ -124,8 +121,7 @@ static void check_sides(const case_file *c, const landmarks *l, issue_list *issu
             bool wrong = left->xyz[0] < right->xyz[0];
             pairs += pass == 0;
             swapped += pass == 0 && wrong;
-            if (pass && wrong &&
-                swapped < pairs) /* all of them: the head is turned, the frame's own message says so */
+            if (pass && wrong && swapped < pairs) /* all of them: the head is turned, the frame's own message says so */
                 issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, left->label,
                           "lies to the right of %s (x = %.1f and %.1f mm, +x is the patient's left); are the "
                           "two labels swapped?",
@@ -151,8 +147,7 @@ static void check_frame(const case_file *c, check_found *found, issue_list *issu
     found->frame_residual_mm = f.residual_mm;
     if (f.residual_mm > uneven_mm)
         issue_add(issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, NULL,
-                  "porions and orbitales lie up to %.1f mm off one plane; is one of them misplaced?",
-                  f.residual_mm);
+                  "porions and orbitales lie up to %.1f mm off one plane; is one of them misplaced?", f.residual_mm);
 }
 
 void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
@@ -171,6 +166,5 @@ void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
     check_frame(c, found, issues);
     check_sides(c, &found->points, issues);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)
-        if (found->mesh[i].vertex_count && !found->wrong_size[i])
-            check_distance_to(c, found, (case_surface)i, issues);
+        if (found->mesh[i].vertex_count && !found->wrong_size[i]) check_distance_to(c, found, (case_surface)i, issues);
 }

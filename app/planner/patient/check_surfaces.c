@@ -27,8 +27,8 @@ static bool is_wrong_size(const case_file *c, double d, issue_list *issues)
         double mm = d * units[i].per_mm;
         if (mm < head_least_mm || mm > head_most_mm) continue;
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 0, NULL,
-                  "the skin measures %.3g corner to corner, a head in %s; save it in mm (times %g)", d,
-                  units[i].unit, units[i].per_mm);
+                  "the skin measures %.3g corner to corner, a head in %s; save it in mm (times %g)", d, units[i].unit,
+                  units[i].per_mm);
         return true;
     }
     issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 0, NULL,
@@ -44,14 +44,13 @@ static void check_closed(const char *path, case_surface s, check_found *found, i
         issue_add(issues, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
                   "%d edges are shared by more than two triangles; repair will try to part them", crowded);
     if (open && s == CASE_SKIN)
-        issue_add(issues, ISSUE_INFO, ERR_NONE, path, 0, NULL,
-                  "the skin is open (%d edges); its holes will be closed", open);
+        issue_add(issues, ISSUE_INFO, ERR_NONE, path, 0, NULL, "the skin is open (%d edges); its holes will be closed",
+                  open);
     else if (open)
         issue_add(issues, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
                   "the surface is open (%d edges); its holes will be closed", open);
     if (!open && !crowded && surface_volume(&found->mesh[s]) < 0)
-        issue_add(issues, ISSUE_INFO, ERR_NONE, path, 0, NULL,
-                  "the triangles face inwards; they will be turned");
+        issue_add(issues, ISSUE_INFO, ERR_NONE, path, 0, NULL, "the triangles face inwards; they will be turned");
 }
 
 void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
@@ -155,8 +154,7 @@ void check_planes(const case_file *c, issue_list *issues)
         for (int k = 0; k < count && !there; k++) there = !strcmp(planes[k].label, o->plane);
         if (!there)
             issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->planes, 0, NULL,
-                      "has no plane \"%s\", which %s names for the %s", o->plane, c->path,
-                      segment_name(o->segment));
+                      "has no plane \"%s\", which %s names for the %s", o->plane, c->path, segment_name(o->segment));
     }
     free(planes);
 }

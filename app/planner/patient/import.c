@@ -77,10 +77,9 @@ static bool read_mesh(const import_params *p, const char *path, import_part *par
     snprintf(part->source, sizeof part->source, "%s", path);
     double scale = p->unit_mm > 0 ? p->unit_mm / (is_gltf(path) ? 1000 : 1) : 1; /* glTF was read as metres */
     for (int64_t i = 0; i < 3 * (int64_t)part->mesh.vertex_count; i++) part->mesh.xyz[i] *= scale;
-    if (part->read.tagged && p->space != MESH_SPACE_FROM_FILE &&
-        part->read.ras != (p->space == MESH_SPACE_RAS))
-        issue_add(notes, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
-                  "the file says SPACE=%s, which wins over --frame", part->read.ras ? "RAS" : "LPS");
+    if (part->read.tagged && p->space != MESH_SPACE_FROM_FILE && part->read.ras != (p->space == MESH_SPACE_RAS))
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, path, 0, NULL, "the file says SPACE=%s, which wins over --frame",
+                  part->read.ras ? "RAS" : "LPS");
     return true;
 }
 
@@ -97,8 +96,8 @@ static bool check_size(const import_params *p, const import_result *r, err *e)
     for (int i = 0; i < 2 && !(p->unit_mm > 0); i++)
         if (d * unit[i].mm >= head_least_mm && d * unit[i].mm <= head_most_mm)
             return err_at(e, ERR_INPUT, skin->source, 0, NULL,
-                          "the skin measures %.3g corner to corner: is it in %s? If so, say --unit %s", d,
-                          unit[i].word, unit[i].option);
+                          "the skin measures %.3g corner to corner: is it in %s? If so, say --unit %s", d, unit[i].word,
+                          unit[i].option);
     return err_at(e, ERR_INPUT, skin->source, 0, NULL,
                   "the skin measures %.4g mm corner to corner; a head measures %g to %g mm", d, head_least_mm,
                   head_most_mm);
@@ -117,11 +116,10 @@ static bool check_together(const import_result *r, err *e)
         surface_bounds(&part->mesh, a, b);
         for (int c = 0; c < 3; c++)
             if (a[c] < low[c] - margin_mm || b[c] > high[c] + margin_mm)
-                return err_at(
-                    e, ERR_GEOMETRY, part->source, 0, NULL,
-                    "the %s reaches %.0f mm beyond the skin's box along %c: are both of one patient, in one "
-                    "frame and unit?",
-                    case_surface_name((case_surface)i), fmax(low[c] - a[c], b[c] - high[c]), 'x' + c);
+                return err_at(e, ERR_GEOMETRY, part->source, 0, NULL,
+                              "the %s reaches %.0f mm beyond the skin's box along %c: are both of one patient, in one "
+                              "frame and unit?",
+                              case_surface_name((case_surface)i), fmax(low[c] - a[c], b[c] - high[c]), 'x' + c);
     }
     return true;
 }
@@ -130,9 +128,8 @@ static bool check_complete(const import_result *r, err *e)
 {
     for (int i = CASE_SKIN; i <= CASE_MANDIBLE; i++)
         if (!r->part[i].mesh.vertex_count)
-            return err_set(e, ERR_USAGE, "a case needs a %s: name it with --%s%s",
-                           case_surface_name((case_surface)i), case_surface_name((case_surface)i),
-                           i == CASE_SKIN ? ", or a CT with --ct" : "");
+            return err_set(e, ERR_USAGE, "a case needs a %s: name it with --%s%s", case_surface_name((case_surface)i),
+                           case_surface_name((case_surface)i), i == CASE_SKIN ? ", or a CT with --ct" : "");
     return true;
 }
 
@@ -148,10 +145,9 @@ static void note_landmarks(import_result *r, issue_list *notes)
         n += (size_t)snprintf(missing + n, n < sizeof missing ? sizeof missing - n : 0, " %s", row->label);
     }
     if (!r->has_points)
-        issue_add(
-            notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL,
-            "no landmarks: place at least%s in 3D Slicer and save them as landmarks.mrk.json in the case",
-            missing);
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL,
+                  "no landmarks: place at least%s in 3D Slicer and save them as landmarks.mrk.json in the case",
+                  missing);
     else if (*missing)
         issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL, "landmarks still missing:%s", missing);
     else if (!head_frame_from_landmarks(&r->points, &frame, &why))
@@ -161,13 +157,11 @@ static void note_landmarks(import_result *r, issue_list *notes)
                   "%d landmarks without a defined position were left out", r->points_skipped);
 }
 
-bool import_read(const import_params *p, const task *watch, import_result *out, issue_list *notes,
-                 err *e)
+bool import_read(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
 {
     import_result r = {.contacts = -1};
     bool good = true;
-    if (p->ct && p->from[CASE_SKIN])
-        return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
+    if (p->ct && p->from[CASE_SKIN]) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
         if (!p->from[i] || (p->labels && !import_is_mesh_name(p->from[i]))) continue;
         task_progress(watch, case_surface_name((case_surface)i), -1);
@@ -195,8 +189,7 @@ bool import_read(const import_params *p, const task *watch, import_result *out, 
     return true;
 }
 
-static bool write_case(const import_params *p, const import_result *r, const char *target, const char *folder,
-                       err *e)
+static bool write_case(const import_params *p, const import_result *r, const char *target, const char *folder, err *e)
 {
     char path[4096];
     json_t *surfaces = json_object();
@@ -213,8 +206,8 @@ static bool write_case(const import_params *p, const import_result *r, const cha
     snprintf(path, sizeof path, "%s/landmarks.mrk.json", folder);
     if (good && r->has_points) good = landmarks_write(&r->points, path, e);
     const char *slash = strrchr(target, '/'), *name = p->name ? p->name : slash ? slash + 1 : target;
-    json_t *root = json_pack("{s:i, s:s, s:s, s:s, s:o, s:s}", "gnathos", 1, "name", name, "units", "mm",
-                             "frame", "LPS", "surfaces", surfaces, "landmarks", "landmarks.mrk.json");
+    json_t *root = json_pack("{s:i, s:s, s:s, s:s, s:o, s:s}", "gnathos", 1, "name", name, "units", "mm", "frame",
+                             "LPS", "surfaces", surfaces, "landmarks", "landmarks.mrk.json");
     if (!root) {
         json_decref(surfaces);
         return err_set(e, ERR_USAGE, "the name of the case is not valid UTF-8");

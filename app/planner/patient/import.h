@@ -9,11 +9,11 @@ typedef struct import_params {
     /* For each surface a mesh file or, with `labels`, labels separated by commas: names, or numbers where the
      * file names none. NULL: none, or what the preset says. */
     const char *from[CASE_SURFACE_COUNT];
-    const char *labels; /* label map, or NULL */
-    const char *preset; /* NULL or "dental-segmentator" */
-    const char *ct;     /* the skin is the head in this CT, or NULL */
-    double skin_hu;     /* above: not air */
-    double seal_mm;     /* openings of the skin narrower than this are sealed, with the airways behind them */
+    const char *labels;        /* label map, or NULL */
+    const char *preset;        /* NULL or "dental-segmentator" */
+    const char *ct;            /* the skin is the head in this CT, or NULL */
+    double skin_hu;            /* above: not air */
+    double seal_mm;            /* openings of the skin narrower than this are sealed, with the airways behind them */
     label_surface_params mesh; /* its least_mm3 holds for islands of voxels too */
     const char *landmarks;
     const char *name; /* NULL: the folder's */
@@ -46,13 +46,11 @@ typedef struct import_result {
 
 import_params import_params_default(void);
 /* Reads and measures everything; advice goes to `notes`. The caller frees *out. */
-bool import_read(const import_params *p, const task *watch, import_result *out, issue_list *notes,
-                 err *e) MUST_CHECK;
+bool import_read(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e) MUST_CHECK;
 /* Writes the folder, whole or not at all; refuses one that is there and not empty. */
 bool import_write(const import_params *p, const import_result *r, const char *folder, err *e) MUST_CHECK;
 void import_result_free(import_result *r);
 
 /* The parts that come from a label map or a CT. */
-bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes,
-                   err *e) MUST_CHECK;
+bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e) MUST_CHECK;
 bool import_is_mesh_name(const char *text);

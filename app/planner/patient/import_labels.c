@@ -35,8 +35,7 @@ static void list_labels(const volume *v, char *text, size_t size)
     int64_t voxels = (int64_t)v->layers * v->size[0] * v->size[1] * v->size[2];
     for (int64_t i = 0; i < voxels; i++) seen[v->value[i] + 32768] = 1;
     for (int k = 0; k < 65536 && n + 16 < size; k++)
-        if (seen[k] && k != 32768)
-            n += (size_t)snprintf(text + n, size - n, "%s%d", n ? ", " : "", k - 32768);
+        if (seen[k] && k != 32768) n += (size_t)snprintf(text + n, size - n, "%s%d", n ? ", " : "", k - 32768);
     free(seen);
 }
 
@@ -119,13 +118,11 @@ static bool mesh_part(const import_params *p, const volume *grid, const label_fi
 {
     part->from_labels = true;
     part->label_mm3 = (double)mask_count(m) * voxel_mm3(grid);
-    return label_surface_make(f, number, &p->mesh, &part->mesh, &part->made, e) ||
-           err_prefix(e, "%s", part->source);
+    return label_surface_make(f, number, &p->mesh, &part->mesh, &part->made, e) || err_prefix(e, "%s", part->source);
 }
 
 /* The head as one solid: its largest piece, openings sealed, cavities filled. */
-static bool mesh_skin(const import_params *p, const task *watch, const volume *grid, mask *m,
-                      import_part *part, err *e)
+static bool mesh_skin(const import_params *p, const task *watch, const volume *grid, mask *m, import_part *part, err *e)
 {
     task_progress(watch, "skin", -1);
     part->islands_dropped = mask_keep_largest(m);
@@ -177,19 +174,16 @@ static void clean_bones(const import_params *p, const volume *v, mask *m, import
 
 static int64_t jaw_contacts(mask *m)
 {
-    static const case_surface upper[2] = {CASE_SKULL, CASE_UPPER_TEETH},
-                              lower[2] = {CASE_MANDIBLE, CASE_LOWER_TEETH};
+    static const case_surface upper[2] = {CASE_SKULL, CASE_UPPER_TEETH}, lower[2] = {CASE_MANDIBLE, CASE_LOWER_TEETH};
     int64_t sum = 0;
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) sum += mask_contacts(&m[upper[a]], &m[lower[b]]);
     return sum;
 }
 
-static bool mesh_bones(const import_params *p, const task *watch, const volume *v, mask *m,
-                       import_result *out, err *e)
+static bool mesh_bones(const import_params *p, const task *watch, const volume *v, mask *m, import_result *out, err *e)
 {
-    label_fields *f =
-        label_fields_create(v, m + CASE_SKULL, CASE_SURFACE_COUNT - CASE_SKULL, p->mesh.sigma_voxels);
+    label_fields *f = label_fields_create(v, m + CASE_SKULL, CASE_SURFACE_COUNT - CASE_SKULL, p->mesh.sigma_voxels);
     bool good = true;
     for (int i = CASE_SKULL; good && i < CASE_SURFACE_COUNT; i++) {
         if (!mask_count(&m[i])) continue;
@@ -201,8 +195,7 @@ static bool mesh_bones(const import_params *p, const task *watch, const volume *
     return good;
 }
 
-static bool parts_of_labels(const import_params *p, const task *watch, import_result *out,
-                            issue_list *notes, err *e)
+static bool parts_of_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
 {
     volume v;
     mask m[CASE_SURFACE_COUNT];
@@ -233,22 +226,19 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
     return good;
 }
 
-static bool skin_of_ct(const import_params *p, const task *watch, import_result *out,
-                       issue_list *notes, err *e)
+static bool skin_of_ct(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
 {
     volume v;
     import_part *part = &out->part[CASE_SKIN];
-    if (part->mesh.vertex_count)
-        return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
+    if (part->mesh.vertex_count) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     task_progress(watch, "ct", -1);
     if (!volume_read(p->ct, &v, e)) return false;
     mask head = mask_new(v.size);
     mask_add_above(&head, &v, p->skin_hu);
     snprintf(part->source, sizeof part->source, "%s, above %g HU", p->ct, p->skin_hu);
     part->thresholded = true;
-    bool good = mask_count(&head) > 0
-                    ? mesh_skin(p, watch, &v, &head, part, e)
-                    : err_at(e, ERR_INPUT, p->ct, 0, NULL, "has no voxel above %g HU", p->skin_hu);
+    bool good = mask_count(&head) > 0 ? mesh_skin(p, watch, &v, &head, part, e)
+                                      : err_at(e, ERR_INPUT, p->ct, 0, NULL, "has no voxel above %g HU", p->skin_hu);
     if (good)
         issue_add(notes, ISSUE_WARNING, ERR_NONE, p->ct, 0, NULL,
                   "the skin was cut out by its grey value: headrest, tubes and dressings belong to it where "
@@ -258,8 +248,7 @@ static bool skin_of_ct(const import_params *p, const task *watch, import_result 
     return good;
 }
 
-bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes,
-                   err *e)
+bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
 {
     if (p->labels && !parts_of_labels(p, watch, out, notes, e)) return false;
     return !p->ct || skin_of_ct(p, watch, out, notes, e);

@@ -1,11 +1,8 @@
 #include "app/planner/patient/landmark_needs.h"
 
 /* A landmark of the left and the same of the right, in two rows that follow each other. */
-#define BOTH(label_, need_, on_, help_, lost_)                                                               \
-    {label_ "_L", need_, NULL, on_, help_, lost_},                                                           \
-    {                                                                                                        \
-        label_ "_R", need_, NULL, on_, help_, lost_                                                          \
-    }
+#define BOTH(label_, need_, on_, help_, lost_)                                                                         \
+    {label_ "_L", need_, NULL, on_, help_, lost_}, { label_ "_R", need_, NULL, on_, help_, lost_ }
 
 const landmark_row landmark_rows[] = {
     {"Po_L", NEED_ALWAYS, NULL, CASE_SKULL, "porion, roof of the ear canal", NULL},
@@ -28,8 +25,7 @@ const landmark_row landmark_rows[] = {
     BOTH("ZB", NEED_LE_FORT_1, CASE_SKULL, "buttress below the cheekbone", NULL),
     BOTH("PM", NEED_LE_FORT_1, CASE_SKULL, "groove between maxilla and pterygoid", NULL),
     BOTH("U6", NEED_LE_FORT_1, CASE_UPPER_TEETH, "mesiobuccal cusp of the upper first molar", NULL),
-    BOTH("L6", NEED_BSSO | NEED_GENIOPLASTY, CASE_LOWER_TEETH, "mesiobuccal cusp of the lower first molar",
-         NULL),
+    BOTH("L6", NEED_BSSO | NEED_GENIOPLASTY, CASE_LOWER_TEETH, "mesiobuccal cusp of the lower first molar", NULL),
     BOTH("U3", NEED_OPTIONAL, CASE_UPPER_TEETH, "cusp of the upper canine",
          "the height of the upper roots is estimated"),
     BOTH("L3", NEED_OPTIONAL, CASE_LOWER_TEETH, "cusp of the lower canine",
@@ -51,14 +47,11 @@ const landmark_row landmark_rows[] = {
     {"Ba", NEED_OPTIONAL, NULL, CASE_SKULL, "basion", "measures of the skull's base"},
     {"ANS", NEED_LE_FORT_1, NULL, CASE_SKULL, "anterior nasal spine", NULL},
     {"PNS", NEED_LE_FORT_1, NULL, CASE_SKULL, "posterior nasal spine", NULL},
-    {"U1_apex", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "root tip of the upper incisors",
-     "the incisors' inclination"},
+    {"U1_apex", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "root tip of the upper incisors", "the incisors' inclination"},
     {"L1_apex", NEED_OPTIONAL, NULL, CASE_SURFACE_COUNT, "root tip of the lower incisors",
      "the lower incisors' inclination"},
-    BOTH("IOF", NEED_OPTIONAL, CASE_SKULL, "infraorbital foramen",
-         "the distance of the Le Fort I cut from the nerve"),
-    BOTH("Zy", NEED_OPTIONAL, CASE_SKULL, "zygion, side of the cheekbone's arch",
-         "the width of the face's bone"),
+    BOTH("IOF", NEED_OPTIONAL, CASE_SKULL, "infraorbital foramen", "the distance of the Le Fort I cut from the nerve"),
+    BOTH("Zy", NEED_OPTIONAL, CASE_SKULL, "zygion, side of the cheekbone's arch", "the width of the face's bone"),
     {"G'", NEED_OPTIONAL, NULL, CASE_SKIN, "soft-tissue glabella", "the angle of facial convexity"},
     {"N'", NEED_OPTIONAL, NULL, CASE_SKIN, "soft-tissue nasion", "soft-tissue heights"},
     {"Sn", NEED_OPTIONAL, NULL, CASE_SKIN, "subnasale", "the nasolabial angle and the lip's length"},

@@ -1,7 +1,7 @@
 #include "app/planner/patient/limit.h"
 
 const limit limit_default[LIMIT_COUNT] = {
-#define X(id, field, unit_, fine0, fine1, stop0, stop1, what_, source_)                                               \
+#define X(id, field, unit_, fine0, fine1, stop0, stop1, what_, source_)                                                \
     {.name = #field, .unit = unit_, .what = what_, .source = source_, .range = {{fine0, fine1}, {stop0, stop1}}},
     LIMITS(X)
 #undef X

@@ -29,8 +29,7 @@ bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
     bool ok = true;
     for (int s = 0; s < CASE_SURFACE_COUNT; s++)
         ok = ok && content_hash_file(h, case_surface_name((case_surface)s), c->surface[s], e);
-    ok = ok && content_hash_file(h, "landmarks", c->landmarks, e) &&
-         content_hash_file(h, "planes", c->planes, e);
+    ok = ok && content_hash_file(h, "landmarks", c->landmarks, e) && content_hash_file(h, "planes", c->planes, e);
     content_hash_number(h, "frame", c->frame);
     content_hash_bytes(h, &c->tissue, sizeof c->tissue);
     content_hash_bytes(h, &c->cuts, sizeof c->cuts);
@@ -80,8 +79,8 @@ static void part_key(int segment, char key[PACK_NAME_SIZE])
 static void fill_pack(const prepared *p, pack_file *f)
 {
     const tissue *t = &p->tissue;
-    size_t nodes = (size_t)t->mesh.vertex_count, tets = (size_t)t->mesh.tet_count,
-           pairs = (size_t)t->attach.pair_count, points = (size_t)p->skin_on_tissue.point_count;
+    size_t nodes = (size_t)t->mesh.vertex_count, tets = (size_t)t->mesh.tet_count, pairs = (size_t)t->attach.pair_count,
+           points = (size_t)p->skin_on_tissue.point_count;
     char key[PACK_NAME_SIZE], *report = json_dumps(p->report, JSON_COMPACT | JSON_REAL_PRECISION(17));
     pack_put(f, "landmarks", p->points.point, (size_t)p->points.count * sizeof *p->points.point);
     pack_put(f, "frame", &p->frame, sizeof p->frame);
@@ -128,9 +127,8 @@ static bool take_tissue(const pack_file *f, tissue *t)
     t->attach.pair_count = (int32_t)n[7];
     err ignored = {0};
     return t->mesh.xyz && t->mesh.tet && t->mesh.region && t->side && t->attach.kind && t->attach.segment &&
-           t->attach.normal && t->attach.pair && t->attach.pair_normal && one == 1 && n[2] == n[1] &&
-           n[3] == n[0] && n[4] == n[0] && n[5] == n[0] && n[6] == n[0] && pairs == n[7] &&
-           tetmesh_check(&t->mesh, &ignored);
+           t->attach.normal && t->attach.pair && t->attach.pair_normal && one == 1 && n[2] == n[1] && n[3] == n[0] &&
+           n[4] == n[0] && n[5] == n[0] && n[6] == n[0] && pairs == n[7] && tetmesh_check(&t->mesh, &ignored);
 }
 
 static bool take_pack(const pack_file *f, prepared *p)
@@ -189,8 +187,7 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
     return ok;
 }
 
-bool prepared_get(const case_file *c, const char *cache, const task *watch,
-                  prepared *out, err *e)
+bool prepared_get(const case_file *c, const char *cache, const task *watch, prepared *out, err *e)
 {
     char hash[HASH_TEXT_SIZE], folder[FIELD_PATH_SIZE + 16], path[FIELD_PATH_SIZE + 64];
     if (!prepared_hash(c, hash, e)) return false;

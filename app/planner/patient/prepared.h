@@ -14,13 +14,12 @@ typedef struct prepared {
     segments segments;
     tissue tissue;
     embedding skin_on_tissue; /* one point per vertex of skin */
-    json_t *report; /* repair, cuts, mesh quality, attachment, seconds: goes into outcome.json as it is */
+    json_t *report;           /* repair, cuts, mesh quality, attachment, seconds: goes into outcome.json as it is */
 } prepared;
 
 /* Takes it from CASE/prepared (or `cache` if not NULL) where a file of the right hash lies there, else makes
  * it and keeps it. A damaged file is made anew. The caller frees *out. */
-bool prepared_get(const case_file *c, const char *cache, const task *watch,
-                  prepared *out, err *e) MUST_CHECK;
+bool prepared_get(const case_file *c, const char *cache, const task *watch, prepared *out, err *e) MUST_CHECK;
 /* The hash of everything it depends on. */
 bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e) MUST_CHECK;
 void prepared_free(prepared *p);

@@ -22,9 +22,9 @@ typedef struct control {
     double low, high;
 } control;
 
-/* PIECE_advance_mm, _lift_mm (of the maxilla _impaction_mm), _lateral_mm, _pitch_deg, _yaw_deg, _roll_deg for the pieces
- * maxilla, mandible, chin, proximal_left and proximal_right. Refuses (ERR_USAGE) another name, with the nearest one;
- * (ERR_INPUT) a piece that the case does not cut. */
+/* PIECE_advance_mm, _lift_mm (of the maxilla _impaction_mm), _lateral_mm, _pitch_deg, _yaw_deg, _roll_deg for the
+ * pieces maxilla, mandible, chin, proximal_left and proximal_right. Refuses (ERR_USAGE) another name, with the nearest
+ * one; (ERR_INPUT) a piece that the case does not cut. */
 bool control_find(const char *name, const case_file *c, control *out, err *e) MUST_CHECK;
 
 /* Writes the short form of every segment as a long one, so that controls can be set. Refuses (ERR_INPUT) a plan that

@@ -38,10 +38,7 @@ static const field rows[] = {
     PLAN(jaw.yaw_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
     PLAN(jaw.roll_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
     PLAN(jaw.protrude_mm, "mm", FROM(-100), TO(100), NOT_BUILT),
-    {.name = "expressions",
-     .kind = FIELD_OTHER,
-     .words = "a list of six numbers from 0 to 1",
-     .help = NOT_BUILT},
+    {.name = "expressions", .kind = FIELD_OTHER, .words = "a list of six numbers from 0 to 1", .help = NOT_BUILT},
     PLAN(rest, NULL, FROM(0), TO(1), NOT_BUILT),
 };
 
@@ -53,8 +50,7 @@ static const field segment_rows[] = {
      FROM(-100),
      TO(100),
      .help = "Translation after the rotation, along the file's axes (LPS)."},
-    SEGMENT(pitch_deg, "deg", FROM(-90), TO(90),
-            "Rotation about the head's left axis; positive turns the front down."),
+    SEGMENT(pitch_deg, "deg", FROM(-90), TO(90), "Rotation about the head's left axis; positive turns the front down."),
     SEGMENT(yaw_deg, "deg", FROM(-90), TO(90),
             "Rotation about the head's vertical; positive turns the front to the left."),
     SEGMENT(roll_deg, "deg", FROM(-90), TO(90),
@@ -76,8 +72,7 @@ static const field segment_rows[] = {
 const field_table *plan_fields(void)
 {
     static plan_file defaults;
-    static const field_table table = {"A plan, one set of bone moves:", rows, sizeof rows / sizeof rows[0],
-                                      &defaults};
+    static const field_table table = {"A plan, one set of bone moves:", rows, sizeof rows / sizeof rows[0], &defaults};
     defaults = plan_file_default();
     return &table;
 }

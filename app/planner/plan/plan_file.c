@@ -12,10 +12,7 @@ static const struct short_field {
                     {"chin_advance_mm", SEGMENT_CHIN}};
 enum { SHORT_COUNT = sizeof short_fields / sizeof short_fields[0], PLACE_SIZE = 128 };
 
-plan_file plan_file_default(void)
-{
-    return (plan_file){.version = 1, .load_steps = 4};
-}
+plan_file plan_file_default(void) { return (plan_file){.version = 1, .load_steps = 4}; }
 
 static const char *cut_for(segment_id s)
 {
@@ -23,17 +20,14 @@ static const char *cut_for(segment_id s)
 }
 
 /* A move of a piece that no cut frees is refused. */
-static void check_freed(const json_file *f, const case_file *c, segment_id s, const char *place,
-                        issue_list *issues)
+static void check_freed(const json_file *f, const case_file *c, segment_id s, const char *place, issue_list *issues)
 {
     if (case_file_frees(c, s)) return;
-    fields_issue(f, place, issues,
-                 "moves the %s segment, which %s does not cut; add \"%s\" to its osteotomies",
+    fields_issue(f, place, issues, "moves the %s segment, which %s does not cut; add \"%s\" to its osteotomies",
                  segment_name(s), c->path, cut_for(s));
 }
 
-static void read_pivot(const json_file *f, const json_t *v, const char *place, plan_segment *s,
-                       issue_list *issues)
+static void read_pivot(const json_file *f, const json_t *v, const char *place, plan_segment *s, issue_list *issues)
 {
     err e = {0};
     const char *label = json_string_value(v);
@@ -45,8 +39,7 @@ static void read_pivot(const json_file *f, const json_t *v, const char *place, p
         fields_issue(f, place, issues, "must be the label of a landmark, or three numbers [x, y, z] in mm");
 }
 
-static void read_matrix(const json_file *f, const json_t *v, const char *place, plan_segment *s,
-                        issue_list *issues)
+static void read_matrix(const json_file *f, const json_t *v, const char *place, plan_segment *s, issue_list *issues)
 {
     err e = {0};
     double m[16];
@@ -68,8 +61,7 @@ static void read_matrix(const json_file *f, const json_t *v, const char *place, 
     if (!rigid_from_matrix(m, &s->motion, &e)) fields_issue(f, place, issues, "%s", e.text);
 }
 
-static void read_segment(const json_file *f, const json_t *o, segment_id id, plan_segment *s,
-                         issue_list *issues)
+static void read_segment(const json_file *f, const json_t *o, segment_id id, plan_segment *s, issue_list *issues)
 {
     char place[PLACE_SIZE], at[64];
     const char *const single[] = {"matrix", "file"};
@@ -134,8 +126,8 @@ static void read_segments(const json_file *f, const case_file *c, plan_file *p, 
         else {
             for (int i = 0; i < SHORT_COUNT; i++)
                 if ((int)short_fields[i].segment == id && json_object_get(f->root, short_fields[i].name))
-                    fields_issue(f, place, issues, "the %s segment is moved by %s too; use one of the two",
-                                 key, short_fields[i].name);
+                    fields_issue(f, place, issues, "the %s segment is moved by %s too; use one of the two", key,
+                                 short_fields[i].name);
             check_freed(f, c, (segment_id)id, place, issues);
             read_segment(f, value, (segment_id)id, &p->segment[id], issues);
         }
@@ -144,8 +136,8 @@ static void read_segments(const json_file *f, const case_file *c, plan_file *p, 
 
 static void read_short(const json_file *f, const case_file *c, plan_file *p, issue_list *issues)
 {
-    const double *const value[SHORT_COUNT] = {&p->maxilla_advance_mm, &p->maxilla_impaction_mm,
-                                              &p->mandible_advance_mm, &p->chin_advance_mm};
+    const double *const value[SHORT_COUNT] = {&p->maxilla_advance_mm, &p->maxilla_impaction_mm, &p->mandible_advance_mm,
+                                              &p->chin_advance_mm};
     for (int i = 0; i < SHORT_COUNT; i++) {
         char place[PLACE_SIZE];
         snprintf(place, sizeof place, "/%s", short_fields[i].name);
@@ -196,8 +188,8 @@ bool plan_file_read(const char *path, const case_file *c, plan_file *out, issue_
     err e = {0};
     int errors = issue_count(issues, ISSUE_ERROR), from = issues->count;
     if (strlen(path) >= FIELD_PATH_SIZE) {
-        issue_add(issues, ISSUE_ERROR, ERR_INPUT, NULL, 0, NULL,
-                  "the path of the plan has more than %d bytes", FIELD_PATH_SIZE - 1);
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, NULL, 0, NULL, "the path of the plan has more than %d bytes",
+                  FIELD_PATH_SIZE - 1);
         return false;
     }
     strcpy(p.path, path);
@@ -208,8 +200,7 @@ bool plan_file_read(const char *path, const case_file *c, plan_file *out, issue_
     if (!json_is_object(f.root)) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 1, NULL, "must be an object { ... }");
     } else if (json_object_get(f.root, "surfaces")) {
-        issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 1, NULL,
-                  "is a case, not a plan; a plan names moves of bones");
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 1, NULL, "is a case, not a plan; a plan names moves of bones");
     } else {
         fields_read(plan_fields(), &f, f.root, "", &p, issues);
         read_short(&f, c, &p, issues);
@@ -220,8 +211,7 @@ bool plan_file_read(const char *path, const case_file *c, plan_file *out, issue_
             fields_issue(&f, "/override", issues, "is empty; it must say why a limit may be exceeded");
         issue_sort_by_line(issues, from);
         if (!*p.name) {
-            const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path,
-                       *dot = strrchr(base, '.');
+            const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
             snprintf(p.name, sizeof p.name, "%.*s", dot && dot > base ? (int)(dot - base) : 200, base);
         }
     }

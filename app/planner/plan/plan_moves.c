@@ -7,9 +7,8 @@
 /* Where a segment's move is measured, and about what it turns where the plan names no pivot: the first that
  * is there. */
 static const char *const reference_labels[SEGMENT_COUNT][3] = {
-    [SEGMENT_MAXILLA] = {"U1", "ANS", "A"}, [SEGMENT_DISTAL] = {"L1", "B", "Pog"},
-    [SEGMENT_PROXIMAL_LEFT] = {"Co_L"},     [SEGMENT_PROXIMAL_RIGHT] = {"Co_R"},
-    [SEGMENT_CHIN] = {"Pog", "Me", "Gn"},
+    [SEGMENT_MAXILLA] = {"U1", "ANS", "A"}, [SEGMENT_DISTAL] = {"L1", "B", "Pog"}, [SEGMENT_PROXIMAL_LEFT] = {"Co_L"},
+    [SEGMENT_PROXIMAL_RIGHT] = {"Co_R"},    [SEGMENT_CHIN] = {"Pog", "Me", "Gn"},
 };
 
 const landmark *plan_moves_reference(const landmarks *l, segment_id s)
@@ -62,12 +61,10 @@ static void check_limit(const plan_file *p, const case_file *c, segment_id id, l
     const char *name = limit_default[l].name,
                *source = c->limit_from_case[l] ? "set by the case" : limit_default[l].source;
     char where[64];
-    snprintf(where, sizeof where, "%s%s", short_form ? "" : "segments.",
-             short_form ? name : segment_name(id));
-    issue_add(issues, excused ? ISSUE_WARNING : ISSUE_ERROR, ERR_INFEASIBLE, p->path, p->segment[id].line,
-              where, "%s%sis %.4g, outside %g to %g: %s. %s%s", short_form ? "" : name, short_form ? "" : " ",
-              value, r->stop[0], r->stop[1], source,
-              excused ? "Accepted because: " : "Move less, or say why in \"override\"",
+    snprintf(where, sizeof where, "%s%s", short_form ? "" : "segments.", short_form ? name : segment_name(id));
+    issue_add(issues, excused ? ISSUE_WARNING : ISSUE_ERROR, ERR_INFEASIBLE, p->path, p->segment[id].line, where,
+              "%s%sis %.4g, outside %g to %g: %s. %s%s", short_form ? "" : name, short_form ? "" : " ", value,
+              r->stop[0], r->stop[1], source, excused ? "Accepted because: " : "Move less, or say why in \"override\"",
               excused ? p->override : "");
 }
 
@@ -99,8 +96,7 @@ static int measure(const plan_file *p, segment_id id, const landmarks *l, const 
     return 4;
 }
 
-bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
-                    issue_list *issues)
+bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out, issue_list *issues)
 {
     plan_moves m = {0};
     rig_controls q = rig_controls_default();
@@ -132,8 +128,7 @@ bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, 
     return true;
 }
 
-bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out,
-                     issue_list *issues)
+bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l, plan_moves *out, issue_list *issues)
 {
     plan_moves m;
     head_frame f;
@@ -144,16 +139,15 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
         limit_id first;
         double value[4];
         int count = measure(p, (segment_id)id, l, &f, m.move, &first, value);
-        for (int i = 0; i < count; i++)
-            check_limit(p, c, (segment_id)id, (limit_id)((int)first + i), value[i], issues);
+        for (int i = 0; i < count; i++) check_limit(p, c, (segment_id)id, (limit_id)((int)first + i), value[i], issues);
     }
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
     *out = m;
     return true;
 }
 
-bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan,
-                     plan_moves *out, err *e)
+bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan, plan_moves *out,
+                     err *e)
 {
     issue_list issues = {0};
     plan_file p;

@@ -22,5 +22,5 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
  * incisor, pogonion, condylion, or a neighbour of theirs; NULL if the case has none. */
 const landmark *plan_moves_reference(const landmarks *l, segment_id s);
 /* Case, landmarks and plan in one call, for verbs that need no more than the first error. */
-bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan,
-                     plan_moves *out, err *e) MUST_CHECK;
+bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan, plan_moves *out,
+                     err *e) MUST_CHECK;

@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Half a millimetre keeps the relief of crowns: smooth and exact distances differ by 0.04 mm on a cusp of 2 mm radius. */
+/* Half a millimetre keeps the relief of crowns: smooth and exact distances differ by 0.04 mm on a cusp of 2 mm radius.
+ */
 static const double grid_mm = 0.5, known_mm = 3;
 
 static double distance(const void *context, const double x[3], double grad[3], double *hess)

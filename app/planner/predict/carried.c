@@ -29,8 +29,7 @@ static int nearest_part(nearest *const tree[SEGMENT_COUNT], const double p[3], d
     return best;
 }
 
-bool carry_landmarks(const prepared *p, const plan_moves *moves, const double *u, carried_landmarks *out,
-                     err *e)
+bool carry_landmarks(const prepared *p, const plan_moves *moves, const double *u, carried_landmarks *out, err *e)
 {
     nearest *tree[SEGMENT_COUNT] = {0};
     bool ok = true;
@@ -84,9 +83,8 @@ static bool move_of(const prepared *p, const carried_landmarks *c, const char *l
 
 int soft_ratios(const prepared *p, const carried_landmarks *c, soft_ratio out[SOFT_RATIOS_MAX])
 {
-    static const char *const pair[SOFT_RATIOS_MAX][2] = {{"Pn", "U1"},   {"Sn", "A"},       {"A'", "A"},
-                                                         {"Ls", "U1"},   {"Li_soft", "L1"}, {"B'", "B"},
-                                                         {"Pg'", "Pog"}, {"Me'", "Me"}};
+    static const char *const pair[SOFT_RATIOS_MAX][2] = {{"Pn", "U1"},      {"Sn", "A"}, {"A'", "A"},    {"Ls", "U1"},
+                                                         {"Li_soft", "L1"}, {"B'", "B"}, {"Pg'", "Pog"}, {"Me'", "Me"}};
     int count = 0;
     for (int i = 0; i < SOFT_RATIOS_MAX; i++) {
         soft_ratio r = {.soft = pair[i][0], .hard = pair[i][1]};

@@ -49,8 +49,7 @@ static bool load_mesh(const face_compare_input *in, face_compare *c, err *e)
         return err_set(e, ERR_USAGE, "%s is a mesh: name the landmarks of that face with --landmarks", in->predicted);
     c->predictions = 1;
     return mesh_read_surface(in->predicted, MESH_SPACE_FROM_FILE, &c->skin[PREDICTED], NULL, e) &&
-           landmarks_read(in->landmarks, &c->points, NULL, e) &&
-           head_frame_from_landmarks(&c->points, &c->frame, e) &&
+           landmarks_read(in->landmarks, &c->points, NULL, e) && head_frame_from_landmarks(&c->points, &c->frame, e) &&
            face_map_make(&c->skin[PREDICTED], &c->points, &c->map, e);
 }
 
@@ -108,7 +107,8 @@ bool face_compare_make(const face_compare_input *in, face_compare *out, err *e)
     surface actual = {0};
     bool outcome = is_outcome(in->predicted);
     if (outcome && in->landmarks)
-        return err_set(e, ERR_USAGE, "%s is an outcome and has its own landmarks: leave --landmarks out", in->predicted);
+        return err_set(e, ERR_USAGE, "%s is an outcome and has its own landmarks: leave --landmarks out",
+                       in->predicted);
     bool ok = (outcome ? load_outcome(in->predicted, &c, e) : load_mesh(in, &c, e)) &&
               load_actual(in, &actual, &c.actual_points, e) && measure(&c, &actual, in->align, e);
     surface_free(&actual);

@@ -24,14 +24,14 @@ enum { ROW_LOWER = FACE_REGION_COUNT - 1, ROW_FACE, ROW_COUNT };
 const char *face_row_name(int row);
 
 typedef struct face_compare {
-    surface skin[PREDICTION_COUNT]; /* NO_CHANGE and SMOOTHED_BONE only for outcomes; the same triangles */
-    int predictions;                /* 1, or PREDICTION_COUNT */
+    surface skin[PREDICTION_COUNT];  /* NO_CHANGE and SMOOTHED_BONE only for outcomes; the same triangles */
+    int predictions;                 /* 1, or PREDICTION_COUNT */
     landmarks points, actual_points; /* as predicted; actual, aligned (count 0: none) */
     landmarks rest_points;           /* before, same order as points (count 0: of a mesh, not known) */
     head_frame frame;
     face_map map;
     bool aligned;
-    surface_fit fit;                   /* of the actual face */
+    surface_fit fit;                     /* of the actual face */
     double *signed_mm[PREDICTION_COUNT]; /* [vertex_count] */
     distance_stats row[PREDICTION_COUNT][ROW_COUNT];
 } face_compare;

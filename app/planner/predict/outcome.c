@@ -12,10 +12,7 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
-static json_t *vector(const double v[3])
-{
-    return json_pack("[fff]", v[0], v[1], v[2]);
-}
+static json_t *vector(const double v[3]) { return json_pack("[fff]", v[0], v[1], v[2]); }
 
 static json_t *plan_json(const outcome *o)
 {
@@ -30,8 +27,8 @@ static json_t *plan_json(const outcome *o)
     }
     for (int l = 0; l < LIMIT_MOVE_COUNT; l++)
         json_object_set_new(measure, limit_default[l].name, json_real(o->moves->measure[l]));
-    return json_pack("{ss ss so so}", "name", o->plan->name, "override", o->plan->override, "segments",
-                     segment, "measures", measure);
+    return json_pack("{ss ss so so}", "name", o->plan->name, "override", o->plan->override, "segments", segment,
+                     "measures", measure);
 }
 
 static json_t *convergence_json(const equilibrium *q)
@@ -40,11 +37,11 @@ static json_t *convergence_json(const equilibrium *q)
     static const char *const kind[] = {"true", "reused", "blended", "projected", "shifted"};
     for (int i = 0; i < q->record_count; i++) {
         const newton_record *r = &q->record[i];
-        json_array_append_new(
-            record, json_pack("{sf si sf sf sf sf ss sb sf sf si}", "load", r->load, "iteration", r->iteration,
-                              "residual_mN", r->residual_mn, "tolerance_mN", r->tolerance_mn, "energy_uJ",
-                              r->energy_uj, "step", r->step, "hessian", kind[r->hessian], "contact", r->contact, "factor_s",
-                              r->factor_s, "min_J", r->min_j, "inverted", r->inverted_count));
+        json_array_append_new(record, json_pack("{sf si sf sf sf sf ss sb sf sf si}", "load", r->load, "iteration",
+                                                r->iteration, "residual_mN", r->residual_mn, "tolerance_mN",
+                                                r->tolerance_mn, "energy_uJ", r->energy_uj, "step", r->step, "hessian",
+                                                kind[r->hessian], "contact", r->contact, "factor_s", r->factor_s,
+                                                "min_J", r->min_j, "inverted", r->inverted_count));
     }
     return record;
 }
@@ -52,12 +49,13 @@ static json_t *convergence_json(const equilibrium *q)
 static json_t *contact_json(const contact_report *c)
 {
     if (!c->on) return json_pack("{sb}", "on", false);
-    return json_pack("{sb sb si si si si si si si sf sf sf sf sf sf si si si sf si si}", "on", true, "held", c->held, "nodes", c->nodes, "touching_nodes",
-                     c->active_nodes, "left_out", c->left_out, "lost", c->lost, "pinched", c->pinched, "passed", c->passed, "guards", c->guards, "slide_off_mm", c->slide_off_mm, "depth_mm", c->depth_mm, "bone_area_mm2",
-                     c->bone_area_mm2, "lip_area_mm2", c->lip_area_mm2, "pressure_kPa", c->pressure_kpa, "energy_uJ",
-                     c->energy_uj, "free_iterations", c->free_iterations, "contact_iterations",
-                     c->contact_iterations, "refreshes", c->refreshes, "last_refresh_mm", c->refresh_change_mm,
-                     "stiffenings", c->stiffenings, "uncoupled", c->uncoupled);
+    return json_pack("{sb sb si si si si si si si sf sf sf sf sf sf si si si sf si si}", "on", true, "held", c->held,
+                     "nodes", c->nodes, "touching_nodes", c->active_nodes, "left_out", c->left_out, "lost", c->lost,
+                     "pinched", c->pinched, "passed", c->passed, "guards", c->guards, "slide_off_mm", c->slide_off_mm,
+                     "depth_mm", c->depth_mm, "bone_area_mm2", c->bone_area_mm2, "lip_area_mm2", c->lip_area_mm2,
+                     "pressure_kPa", c->pressure_kpa, "energy_uJ", c->energy_uj, "free_iterations", c->free_iterations,
+                     "contact_iterations", c->contact_iterations, "refreshes", c->refreshes, "last_refresh_mm",
+                     c->refresh_change_mm, "stiffenings", c->stiffenings, "uncoupled", c->uncoupled);
 }
 
 /* Tissue inside bone. */
@@ -82,17 +80,15 @@ static json_t *solve_json(const equilibrium *q)
         if (vec_norm(q->segment_force_mn[s]) > 0)
             json_object_set_new(force, segment_name((segment_id)s), vector(q->segment_force_mn[s]));
     return json_pack("{ss sb si si si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so so}", "outcome",
-                     solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations",
-                     q->iterations, "factorisations", q->factorisations, "cg_iterations", q->cg_iterations,
-                     "preconditioners", q->preconditioners, "loads", q->loads, "halvings",
-                     q->halvings, "residual_mN", q->residual_mn, "initial_residual_mN", q->reference_mn,
-                     "relative_residual", relative_residual(q),
-                     "tolerance_mN", q->tolerance_mn, "energy_uJ", q->energy_uj, "segment_force_mN", force,
-                     "force_imbalance", q->imbalance, "inverted_tets", q->extremes.inverted_count, "min_J",
-                     q->extremes.min_j, "min_J_tet", q->extremes.min_j_tet, "unknowns",
-                     (json_int_t)q->unknown_count, "factor_entries", (json_int_t)q->factor_entries,
-                     "largest_stretch", q->extremes.max_stretch, "memory_peak_MB", q->memory_peak_mb,
-                     "contact", contact_json(&q->contact), "record", convergence_json(q));
+                     solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations", q->iterations,
+                     "factorisations", q->factorisations, "cg_iterations", q->cg_iterations, "preconditioners",
+                     q->preconditioners, "loads", q->loads, "halvings", q->halvings, "residual_mN", q->residual_mn,
+                     "initial_residual_mN", q->reference_mn, "relative_residual", relative_residual(q), "tolerance_mN",
+                     q->tolerance_mn, "energy_uJ", q->energy_uj, "segment_force_mN", force, "force_imbalance",
+                     q->imbalance, "inverted_tets", q->extremes.inverted_count, "min_J", q->extremes.min_j, "min_J_tet",
+                     q->extremes.min_j_tet, "unknowns", (json_int_t)q->unknown_count, "factor_entries",
+                     (json_int_t)q->factor_entries, "largest_stretch", q->extremes.max_stretch, "memory_peak_MB",
+                     q->memory_peak_mb, "contact", contact_json(&q->contact), "record", convergence_json(q));
 }
 
 static json_t *landmarks_json(const outcome *o)
@@ -106,13 +102,12 @@ static json_t *landmarks_json(const outcome *o)
         mm[0] = -vec_dot(d, o->prepared->frame.posterior);
         mm[1] = vec_dot(d, o->prepared->frame.up);
         mm[2] = vec_dot(d, o->prepared->frame.left);
-        json_array_append_new(
-            list, json_pack("{ss ss so so so}", "label", before->point[i].label, "carried_by",
-                            carrier >= 0                 ? segment_name((segment_id)carrier)
-                            : carrier == CARRIED_BY_SKIN ? "skin"
-                                                         : "nothing",
-                            "before_lps_mm", vector(before->point[i].xyz), "after_lps_mm",
-                            vector(o->points->after.point[i].xyz), "forward_up_left_mm", vector(mm)));
+        json_array_append_new(list, json_pack("{ss ss so so so}", "label", before->point[i].label, "carried_by",
+                                              carrier >= 0                 ? segment_name((segment_id)carrier)
+                                              : carrier == CARRIED_BY_SKIN ? "skin"
+                                                                           : "nothing",
+                                              "before_lps_mm", vector(before->point[i].xyz), "after_lps_mm",
+                                              vector(o->points->after.point[i].xyz), "forward_up_left_mm", vector(mm)));
     }
     return list;
 }
@@ -123,9 +118,8 @@ static json_t *ratios_json(const outcome *o)
     int count = soft_ratios(o->prepared, o->points, r);
     json_t *list = json_array();
     for (int i = 0; i < count; i++)
-        json_array_append_new(list, json_pack("{ss ss so so so}", "soft", r[i].soft, "hard", r[i].hard,
-                                              "soft_mm", vector(r[i].soft_mm), "hard_mm",
-                                              vector(r[i].hard_mm), "forward_ratio",
+        json_array_append_new(list, json_pack("{ss ss so so so}", "soft", r[i].soft, "hard", r[i].hard, "soft_mm",
+                                              vector(r[i].soft_mm), "hard_mm", vector(r[i].hard_mm), "forward_ratio",
                                               isfinite(r[i].ratio) ? json_real(r[i].ratio) : json_null()));
     return list;
 }
@@ -146,22 +140,20 @@ json_t *outcome_json(const outcome *o)
     struct rusage use;
     getrusage(RUSAGE_SELF, &use);
     const equilibrium *q = o->solve;
-    json_t *seconds = json_pack(
-        "{sf sf sf sf sf sf sf sf}", "prepare_wall", o->prepare_s, "solve_wall", o->solve_s, "ordering",
-        q->prepare_s, "assembly", q->assemble_s, "factorisation", q->factor_s, "back_substitution",
-        q->solve_s, "cpu_user", (double)use.ru_utime.tv_sec + 1e-6 * (double)use.ru_utime.tv_usec,
-        "cpu_system", (double)use.ru_stime.tv_sec + 1e-6 * (double)use.ru_stime.tv_usec);
+    json_t *seconds =
+        json_pack("{sf sf sf sf sf sf sf sf}", "prepare_wall", o->prepare_s, "solve_wall", o->solve_s, "ordering",
+                  q->prepare_s, "assembly", q->assemble_s, "factorisation", q->factor_s, "back_substitution",
+                  q->solve_s, "cpu_user", (double)use.ru_utime.tv_sec + 1e-6 * (double)use.ru_utime.tv_usec,
+                  "cpu_system", (double)use.ru_stime.tv_sec + 1e-6 * (double)use.ru_stime.tv_usec);
     json_t *out = json_pack(
         "{si ss ss ss so so s{sf sf} so so so sf so ss}", "gnathos", 1, "version", GNATHOS_VERSION, "case",
         o->patient->name, "case_hash", o->prepared->hash, "plan", plan_json(o), "scene", outcome_scene_json(o),
-        "material", "young_kpa", o->patient->material.young_kpa, "poisson", o->patient->material.poisson,
-        "solve", solve_json(q), "prepared", json_deep_copy(o->prepared->report), "seconds", seconds,
-        "peak_memory_MB", (double)use.ru_maxrss / 1024, "discretisation_error_mm", json_null(),
-        "discretisation_error_note",
+        "material", "young_kpa", o->patient->material.young_kpa, "poisson", o->patient->material.poisson, "solve",
+        solve_json(q), "prepared", json_deep_copy(o->prepared->report), "seconds", seconds, "peak_memory_MB",
+        (double)use.ru_maxrss / 1024, "discretisation_error_mm", json_null(), "discretisation_error_note",
         "not estimated: one mesh was solved; compare runs with other values of tissue.element_mm");
     json_object_set_new(out, "limits", judgement_json(o->limits, o->patient, o->plan->override));
-    json_object_set_new(out, "movements",
-                        movements_json(o->moves->move, &o->prepared->points, &o->prepared->frame));
+    json_object_set_new(out, "movements", movements_json(o->moves->move, &o->prepared->points, &o->prepared->frame));
     json_object_set_new(out, "trust", json_string(trust(o->contact)));
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
@@ -173,8 +165,7 @@ json_t *outcome_json(const outcome *o)
     return out;
 }
 
-static bool write_surface(const surface *s, const output_dir *dir, const char *name, const char *extension,
-                          err *e)
+static bool write_surface(const surface *s, const output_dir *dir, const char *name, const char *extension, err *e)
 {
     char file[64];
     snprintf(file, sizeof file, "%s%s", name, extension);
@@ -208,8 +199,7 @@ static bool write_segments(const outcome *o, const output_dir *dir, err *e)
 static bool write_tissue(const outcome *o, const output_dir *dir, err *e)
 {
     const plan_tissue *t = o->tissue;
-    double *kind = NEW_ARRAY(double, t->mesh.vertex_count),
-           *segment = NEW_ARRAY(double, t->mesh.vertex_count);
+    double *kind = NEW_ARRAY(double, t->mesh.vertex_count), *segment = NEW_ARRAY(double, t->mesh.vertex_count);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
         kind[v] = t->attach.kind[v];
         segment[v] = t->attach.segment[v];
@@ -227,8 +217,7 @@ bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e)
 {
     if (!write_surface(&o->prepared->skin, dir, "skin_before", ".ply", e) ||
         !write_surface(o->skin, dir, "skin_after", ".ply", e) ||
-        !write_surface(o->skin, dir, "skin_after", ".stl", e) || !write_segments(o, dir, e) ||
-        !write_tissue(o, dir, e))
+        !write_surface(o->skin, dir, "skin_after", ".stl", e) || !write_segments(o, dir, e) || !write_tissue(o, dir, e))
         return false;
     char *path = output_dir_file(dir, "landmarks_planned.mrk.json");
     bool ok = landmarks_write(&o->points->after, path, e);
@@ -259,10 +248,8 @@ void outcome_print(const outcome *o)
            "largest stretch "
            "%.2f\n",
            o->plan->name[0] ? o->plan->name : "plan", solve_outcome_text(q->outcome), q->iterations,
-           relative_residual(q), q->extremes.min_j,
-           q->extremes.inverted_count, q->extremes.max_stretch);
-    printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "",
-           o->solve_s);
+           relative_residual(q), q->extremes.min_j, q->extremes.inverted_count, q->extremes.max_stretch);
+    printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "", o->solve_s);
     outcome_scene_print(o);
     if (q->extremes.inverted_count > 0) {
         double middle[3], away = worst_tet(o, middle);
@@ -275,17 +262,18 @@ void outcome_print(const outcome *o)
     if (c->on)
         printf("contact%s: %d of %d nodes press on something, %.0f mm2 on bone and %.0f mm2 between the lips, deepest "
                "%.3f mm, up to %.1f kPa; %d iterations without, %d with contact\n",
-               c->held ? " (lips and mucosa keep in touch)" : "", c->active_nodes, c->nodes, c->bone_area_mm2, c->lip_area_mm2,
-               c->depth_mm, c->pressure_kpa, c->free_iterations, c->contact_iterations);
+               c->held ? " (lips and mucosa keep in touch)" : "", c->active_nodes, c->nodes, c->bone_area_mm2,
+               c->lip_area_mm2, c->depth_mm, c->pressure_kpa, c->free_iterations, c->contact_iterations);
     if (c->on && c->passed)
-        printf("%d nodes of the lining went right through a bone, as between tooth rows that change places: the shape is not to "
-               "be trusted near there\n",
-               c->passed);
+        printf(
+            "%d nodes of the lining went right through a bone, as between tooth rows that change places: the shape is not to "
+            "be trusted near there\n",
+            c->passed);
     if (c->on && c->guards)
         printf("%d nodes are held by planes before a bone that they would else have gone through\n", c->guards);
-    if (c->on && c->lost) printf("%d nodes in bone were given up: on which side of it they belong is not clear\n", c->lost);
-    if (c->on && c->pinched)
-        printf("%d nodes lie where two bones overlap and cannot be out of both\n", c->pinched);
+    if (c->on && c->lost)
+        printf("%d nodes in bone were given up: on which side of it they belong is not clear\n", c->lost);
+    if (c->on && c->pinched) printf("%d nodes lie where two bones overlap and cannot be out of both\n", c->pinched);
     if (!o->points) return;
     const bone_depth *d = o->depth;
     if (d->nodes)
@@ -294,12 +282,11 @@ void outcome_print(const outcome *o)
                d->depth_mm, d->area_mm2, d->area_deep_mm2, segment_name((segment_id)d->segment), d->at[0], d->at[1],
                d->at[2], d->from_skin_mm);
     int count = soft_ratios(o->prepared, o->points, r);
-    printf("\n%-8s %9s %7s %7s   %-5s %9s %7s %7s   %s\n", "soft", "forward", "up", "left", "hard", "forward",
-           "up", "left", "ratio");
+    printf("\n%-8s %9s %7s %7s   %-5s %9s %7s %7s   %s\n", "soft", "forward", "up", "left", "hard", "forward", "up",
+           "left", "ratio");
     for (int i = 0; i < count; i++) {
-        printf("%-8s %9.2f %7.2f %7.2f   %-5s %9.2f %7.2f %7.2f   ", r[i].soft, r[i].soft_mm[0],
-               r[i].soft_mm[1], r[i].soft_mm[2], r[i].hard, r[i].hard_mm[0], r[i].hard_mm[1],
-               r[i].hard_mm[2]);
+        printf("%-8s %9.2f %7.2f %7.2f   %-5s %9.2f %7.2f %7.2f   ", r[i].soft, r[i].soft_mm[0], r[i].soft_mm[1],
+               r[i].soft_mm[2], r[i].hard, r[i].hard_mm[0], r[i].hard_mm[1], r[i].hard_mm[2]);
         if (isfinite(r[i].ratio))
             printf("%.2f\n", r[i].ratio);
         else

@@ -20,8 +20,8 @@ typedef struct outcome {
     const surface *skin; /* predicted */
     const carried_landmarks *points;
     const bone_depth *depth;
-    contact_kind contact; /* asked for */
-    const judgement *limits; /* of bones and tissue */
+    contact_kind contact;                           /* asked for */
+    const judgement *limits;                        /* of bones and tissue */
     double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
 } outcome;
 

@@ -27,7 +27,8 @@ static bool read_points(outcome_record *r, err *e)
     json_t *item;
     const json_t *list = json_object_get(r->file.root, "landmarks");
     if (!json_array_size(list)) return json_file_refuse(&r->file, "/landmarks", e, "this outcome has no landmarks");
-    json_array_foreach (list, i, item) {
+    json_array_foreach(list, i, item)
+    {
         char pointer[64];
         double p[3];
         const char *label = json_string_value(json_object_get(item, "label"));

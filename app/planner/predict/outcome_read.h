@@ -5,9 +5,9 @@
 #include "geometry/segments.h"
 
 typedef struct outcome_record {
-    json_file file;            /* outcome.json */
-    landmarks before, after;   /* same labels and order */
-    head_frame frame;          /* of before */
+    json_file file;          /* outcome.json */
+    landmarks before, after; /* same labels and order */
+    head_frame frame;        /* of before */
 } outcome_record;
 
 bool is_outcome(const char *folder); /* it holds outcome.json */

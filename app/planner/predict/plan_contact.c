@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double watch_mm = 3; /* nodes farther from every bone than this and its move are not asked */
+static const double watch_mm = 3;          /* nodes farther from every bone than this and its move are not asked */
 static const double depth_limit_mm = 0.05; /* of the smooth bone; what is left to 0.1 mm is its error */
 
 static const char *const kind_name[] = {"off", "bones", "lips"};
@@ -35,14 +35,13 @@ static double slip_at(const rigid motion[SEGMENT_COUNT], const bone_shapes *s, c
 }
 
 /* Free nodes on the tissue's surface that a bone can come near. */
-static void find_extra(const tissue *t, const attach_map *a, const rigid motion[SEGMENT_COUNT],
-                       const bone_shapes *s, plan_contact *c)
+static void find_extra(const tissue *t, const attach_map *a, const rigid motion[SEGMENT_COUNT], const bone_shapes *s,
+                       plan_contact *c)
 {
     c->extra = NEW_ARRAY(int32_t, t->mesh.vertex_count);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
         const double *x = t->mesh.xyz + 3 * (size_t)v;
-        bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN,
-             near = false;
+        bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN, near = false;
         double slip = outside && a->kind[v] == NODE_FREE ? slip_at(motion, s, x) : 0;
         for (int k = 0; slip > 0 && !near && k < SEGMENT_COUNT; k++)
             near = s->tree[k] && nearest_point(s->tree[k], x, NULL, NULL) < slip + watch_mm;
@@ -53,8 +52,8 @@ static void find_extra(const tissue *t, const attach_map *a, const rigid motion[
 
 /* Boundary faces of one lip that look at the other one: at least one corner is paired, none is the other
  * lip's. */
-static int32_t *make_lip(const tissue *t, const uint8_t *lip, const double *normal, int side,
-                         const int32_t *face, int32_t faces, int32_t *count)
+static int32_t *make_lip(const tissue *t, const uint8_t *lip, const double *normal, int side, const int32_t *face,
+                         int32_t faces, int32_t *count)
 {
     int32_t *out = NEW_ARRAY(int32_t, 3 * (size_t)faces);
     *count = 0;
@@ -78,8 +77,7 @@ static int32_t *make_lip(const tissue *t, const uint8_t *lip, const double *norm
 }
 
 /* Where the lips grow together a corner can be in faces of both: it belongs to neither. */
-static void part_lips(int32_t nodes, int32_t *upper, int32_t *upper_count, int32_t *lower,
-                      int32_t *lower_count)
+static void part_lips(int32_t nodes, int32_t *upper, int32_t *upper_count, int32_t *lower, int32_t *lower_count)
 {
     uint8_t *used = NEW_ARRAY(uint8_t, nodes);
     int32_t *face[2] = {upper, lower}, *count[2] = {upper_count, lower_count};
@@ -129,8 +127,8 @@ static bool is_run_over(const bone_shapes *s, const rigid motion[SEGMENT_COUNT],
         rigid_apply(&back_k, moved, at);
         vec_sub(x, at, back);
         double gone = vec_normalize(back);
-        if (gone > 0 && (nearest_inside(s->tree[k], at) ||
-                         distance_field_leave(s->field[k], at, back, gone, hit, normal)))
+        if (gone > 0 &&
+            (nearest_inside(s->tree[k], at) || distance_field_leave(s->field[k], at, back, gone, hit, normal)))
             return true;
     }
     return false;

@@ -3,8 +3,8 @@
 #include "app/planner/predict/bone_shapes.h"
 
 typedef enum contact_kind {
-    CONTACT_OFF, /* lips and mucosa keep in touch as they are attached and slide along tangent planes at rest
-                  */
+    CONTACT_OFF,   /* lips and mucosa keep in touch as they are attached and slide along tangent planes at rest
+                    */
     CONTACT_BONES, /* they slide along the bones' real surface instead, and no tissue enters a bone */
     CONTACT_LIPS   /* no tissue enters a bone; lips can part and meet, and mucosa can lift off */
 } contact_kind;

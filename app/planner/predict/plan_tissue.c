@@ -17,12 +17,10 @@ static bool make_materials(const case_file *c, plan_tissue *t, err *e)
            element_choose(flesh, kind, e) && element_choose(cartilage, kind, e);
 }
 
-static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t,
-                    err *e)
+static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
 {
     lip_rest_params params = lip_rest_params_default(c->tissue.vestibule_lower_mm);
-    return lip_rest(&p->tissue, &p->segments, motion, &p->points, &p->frame, &params, &t->attach,
-                    &t->lip_nodes, e);
+    return lip_rest(&p->tissue, &p->segments, motion, &p->points, &p->frame, &params, &t->attach, &t->lip_nodes, e);
 }
 
 static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
@@ -31,8 +29,7 @@ static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_
     nose_params params = nose_params_default();
     bool found = false;
     if (rigid_is_identity(maxilla)) return true;
-    if (!nose_make(&p->tissue, &p->skin, &p->segments, maxilla, &p->points, &params, &t->nose, &found, e))
-        return false;
+    if (!nose_make(&p->tissue, &p->skin, &p->segments, maxilla, &p->points, &params, &t->nose, &found, e)) return false;
     for (int32_t i = 0; found && i < t->nose.anchors; i++) {
         t->attach.kind[t->nose.anchor[i]] = NODE_TIED;
         t->attach.segment[t->nose.anchor[i]] = SEGMENT_CRANIUM;
@@ -47,8 +44,7 @@ bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
     bool ok = plan_attach(&p->tissue, &p->segments, motion, &along_cuts, &t.attach, &t.cuts, e) &&
-              add_nose(p, motion, &t, e) && (free_lips || add_lip(c, p, motion, &t, e)) &&
-              make_materials(c, &t, e);
+              add_nose(p, motion, &t, e) && (free_lips || add_lip(c, p, motion, &t, e)) && make_materials(c, &t, e);
     if (ok)
         *out = t;
     else

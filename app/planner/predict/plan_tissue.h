@@ -8,8 +8,7 @@
 #include "sim/element.h"
 
 typedef struct plan_tissue {
-    tetmesh
-        mesh; /* nodes and tets are those of the prepared tissue (borrowed); the regions may be the nose's */
+    tetmesh mesh; /* nodes and tets are those of the prepared tissue (borrowed); the regions may be the nose's */
     attach_map attach;
     nose nose; /* none where the maxilla stays */
     plan_attach_report cuts;

@@ -7,8 +7,8 @@
 
 typedef enum child_end {
     CHILD_DONE,
-    CHILD_CRASHED,    /* a signal, an assertion, no memory */
-    CHILD_LATE,       /* out of processor time, or out of ten times that by the wall */
+    CHILD_CRASHED, /* a signal, an assertion, no memory */
+    CHILD_LATE,    /* out of processor time, or out of ten times that by the wall */
     CHILD_INTERRUPTED
 } child_end;
 

@@ -19,10 +19,7 @@ content_hash *content_hash_start(void)
     return h;
 }
 
-void content_hash_bytes(content_hash *h, const void *bytes, size_t size)
-{
-    sha256_update(&h->state, size, bytes);
-}
+void content_hash_bytes(content_hash *h, const void *bytes, size_t size) { sha256_update(&h->state, size, bytes); }
 
 void content_hash_number(content_hash *h, const char *name, double value)
 {

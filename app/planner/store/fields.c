@@ -25,30 +25,14 @@ void fields_issue(const json_file *f, const char *pointer, issue_list *issues, c
 const char *fields_value_words(const json_t *value, char *words, size_t size)
 {
     switch (json_typeof(value)) {
-    case JSON_OBJECT:
-        snprintf(words, size, "an object");
-        break;
-    case JSON_ARRAY:
-        snprintf(words, size, "a list of %zu", json_array_size(value));
-        break;
-    case JSON_STRING:
-        snprintf(words, size, "\"%.60s\"", json_string_value(value));
-        break;
-    case JSON_INTEGER:
-        snprintf(words, size, "%lld", (long long)json_integer_value(value));
-        break;
-    case JSON_REAL:
-        snprintf(words, size, "%.10g", json_real_value(value));
-        break;
-    case JSON_TRUE:
-        snprintf(words, size, "true");
-        break;
-    case JSON_FALSE:
-        snprintf(words, size, "false");
-        break;
-    case JSON_NULL:
-        snprintf(words, size, "null");
-        break;
+    case JSON_OBJECT: snprintf(words, size, "an object"); break;
+    case JSON_ARRAY: snprintf(words, size, "a list of %zu", json_array_size(value)); break;
+    case JSON_STRING: snprintf(words, size, "\"%.60s\"", json_string_value(value)); break;
+    case JSON_INTEGER: snprintf(words, size, "%lld", (long long)json_integer_value(value)); break;
+    case JSON_REAL: snprintf(words, size, "%.10g", json_real_value(value)); break;
+    case JSON_TRUE: snprintf(words, size, "true"); break;
+    case JSON_FALSE: snprintf(words, size, "false"); break;
+    case JSON_NULL: snprintf(words, size, "null"); break;
     }
     return words;
 }
@@ -57,8 +41,7 @@ const char *fields_value_words(const json_t *value, char *words, size_t size)
 static const char *range_words(const field *r, char *words, size_t size)
 {
     const char *unit = r->unit ? r->unit : "", *gap = *unit ? " " : "";
-    const char *below = r->high_open ? "less than" : "at most",
-               *above = r->low_open ? "more than" : "at least";
+    const char *below = r->high_open ? "less than" : "at most", *above = r->low_open ? "more than" : "at least";
     if (isinf(r->low) && isinf(r->high))
         snprintf(words, size, "any%s%s", gap, unit);
     else if (isinf(r->high))
@@ -73,24 +56,15 @@ static const char *range_words(const field *r, char *words, size_t size)
 static const char *kind_words(const field *r)
 {
     switch (r->kind) {
-    case FIELD_VERSION:
-        return "the number 1";
-    case FIELD_NUMBER:
-        return "a number";
-    case FIELD_COUNT:
-        return "a whole number";
-    case FIELD_VEC3:
-        return "three numbers [x, y, z]";
-    case FIELD_RANGE:
-        return "two numbers [low, high]";
-    case FIELD_WORD:
-        return "one of";
-    case FIELD_TEXT:
-        return "a text";
-    case FIELD_FILE:
-        return "the name of a file";
-    case FIELD_OTHER:
-        return r->words;
+    case FIELD_VERSION: return "the number 1";
+    case FIELD_NUMBER: return "a number";
+    case FIELD_COUNT: return "a whole number";
+    case FIELD_VEC3: return "three numbers [x, y, z]";
+    case FIELD_RANGE: return "two numbers [low, high]";
+    case FIELD_WORD: return "one of";
+    case FIELD_TEXT: return "a text";
+    case FIELD_FILE: return "the name of a file";
+    case FIELD_OTHER: return r->words;
     }
     return "";
 }
@@ -100,12 +74,11 @@ static bool in_range(const field *r, double v)
     return (r->low_open ? v > r->low : v >= r->low) && (r->high_open ? v < r->high : v <= r->high);
 }
 
-static void wrong_kind(const field *r, const json_file *f, const json_t *v, const char *pointer,
-                       issue_list *issues)
+static void wrong_kind(const field *r, const json_file *f, const json_t *v, const char *pointer, issue_list *issues)
 {
     char got[96];
-    fields_issue(f, pointer, issues, "is %s; must be %s%s%s", fields_value_words(v, got, sizeof got),
-                 kind_words(r), r->unit ? " in " : "", r->unit ? r->unit : "");
+    fields_issue(f, pointer, issues, "is %s; must be %s%s%s", fields_value_words(v, got, sizeof got), kind_words(r),
+                 r->unit ? " in " : "", r->unit ? r->unit : "");
 }
 
 static bool read_number(const field *r, const json_file *f, const json_t *v, const char *pointer, double *out,
@@ -123,8 +96,8 @@ static bool read_number(const field *r, const json_file *f, const json_t *v, con
     return false;
 }
 
-static void read_numbers(const field *r, const json_file *f, const json_t *v, const char *pointer,
-                         double *target, issue_list *issues)
+static void read_numbers(const field *r, const json_file *f, const json_t *v, const char *pointer, double *target,
+                         issue_list *issues)
 {
     size_t want = r->kind == FIELD_VEC3 ? 3 : 2;
     double out[3];
@@ -140,8 +113,7 @@ static void read_numbers(const field *r, const json_file *f, const json_t *v, co
         if (!read_number(&one, f, json_array_get(v, i), element, &out[i], issues)) return;
     }
     if (r->kind == FIELD_RANGE && out[0] > out[1])
-        fields_issue(f, pointer, issues, "is [%g, %g]; the first number must be the smaller one", out[0],
-                     out[1]);
+        fields_issue(f, pointer, issues, "is [%g, %g]; the first number must be the smaller one", out[0], out[1]);
     else
         memcpy(target, out, want * sizeof *out);
 }
@@ -166,12 +138,10 @@ static void read_word(const field *r, const json_file *f, const json_t *v, const
         *target = i;
         return;
     }
-    fields_issue(f, pointer, issues, "is %s; must be one of: %s", fields_value_words(v, got, sizeof got),
-                 r->words);
+    fields_issue(f, pointer, issues, "is %s; must be one of: %s", fields_value_words(v, got, sizeof got), r->words);
 }
 
-static void read_file(const json_file *f, const json_t *v, const char *pointer, char *target,
-                      issue_list *issues)
+static void read_file(const json_file *f, const json_t *v, const char *pointer, char *target, issue_list *issues)
 {
     const char *name = json_string_value(v), *slash = strrchr(f->path, '/');
     int folder = slash && *name != '/' ? (int)(slash - f->path) + 1 : 0;
@@ -198,8 +168,7 @@ static void read_row(const field *r, const json_file *f, const json_t *v, const 
     char *at = (char *)target + r->offset;
     double number;
     switch (r->kind) {
-    case FIELD_OTHER:
-        break;
+    case FIELD_OTHER: break;
     case FIELD_VERSION:
         if (!json_is_integer(v))
             wrong_kind(r, f, v, pointer, issues);
@@ -216,12 +185,8 @@ static void read_row(const field *r, const json_file *f, const json_t *v, const 
         if (read_number(r, f, v, pointer, &number, issues)) memcpy(at, &(int){(int)number}, sizeof(int));
         break;
     case FIELD_VEC3:
-    case FIELD_RANGE:
-        read_numbers(r, f, v, pointer, (double *)(void *)at, issues);
-        break;
-    case FIELD_WORD:
-        read_word(r, f, v, pointer, (int *)(void *)at, issues);
-        break;
+    case FIELD_RANGE: read_numbers(r, f, v, pointer, (double *)(void *)at, issues); break;
+    case FIELD_WORD: read_word(r, f, v, pointer, (int *)(void *)at, issues); break;
     case FIELD_TEXT:
         if (!json_is_string(v))
             wrong_kind(r, f, v, pointer, issues);
@@ -247,8 +212,7 @@ static int names_within(const field_table *t, const char *base, char (*name)[64]
     size_t skip = strlen(base);
     for (int i = 0; i < t->count && n < NAMES_MAX; i++) {
         if (strncmp(t->row[i].name, base, skip)) continue;
-        snprintf(name[n], sizeof name[n], "%.*s", (int)strcspn(t->row[i].name + skip, "."),
-                 t->row[i].name + skip);
+        snprintf(name[n], sizeof name[n], "%.*s", (int)strcspn(t->row[i].name + skip, "."), t->row[i].name + skip);
         bool known = false;
         for (int k = 0; k < n && !known; k++) known = !strcmp(name[k], name[n]);
         if (known) continue;
@@ -258,8 +222,8 @@ static int names_within(const field_table *t, const char *base, char (*name)[64]
     return n;
 }
 
-static void unknown(const field_table *t, const char *base, const char *key, const json_file *f,
-                    const char *pointer, issue_list *issues)
+static void unknown(const field_table *t, const char *base, const char *key, const json_file *f, const char *pointer,
+                    issue_list *issues)
 {
     char name[NAMES_MAX][64], all[768] = "";
     const char *list[NAMES_MAX];
@@ -281,10 +245,7 @@ static void unknown(const field_table *t, const char *base, const char *key, con
     fields_issue(f, pointer, issues, "unknown field; known here: %s", all);
 }
 
-static bool is_comment(const char *key)
-{
-    return key[0] == '/' && key[1] == '/';
-}
+static bool is_comment(const char *key) { return key[0] == '/' && key[1] == '/'; }
 
 static void read_object(const field_table *t, const json_file *f, const json_t *o, const char *base,
                         const char *pointer, void *target, issue_list *issues)
@@ -383,8 +344,7 @@ static void print_default(const field *r, const void *defaults, FILE *out)
         split_words(r->words, copy, sizeof copy, names);
         fprintf(out, "default %s", names[word]);
         break;
-    default:
-        fprintf(out, "optional");
+    default: fprintf(out, "optional");
     }
 }
 
@@ -396,8 +356,8 @@ void fields_print(const field_table *t, FILE *out)
         char range[128];
         fprintf(out, "\n  %s\n      %s%s%s", r->name, kind_words(r), r->kind == FIELD_WORD ? ": " : "",
                 r->kind == FIELD_WORD ? r->words : "");
-        bool numeric = r->kind == FIELD_NUMBER || r->kind == FIELD_COUNT || r->kind == FIELD_VEC3 ||
-                       r->kind == FIELD_RANGE;
+        bool numeric =
+            r->kind == FIELD_NUMBER || r->kind == FIELD_COUNT || r->kind == FIELD_VEC3 || r->kind == FIELD_RANGE;
         if (numeric) fprintf(out, ", %s", range_words(r, range, sizeof range));
         fprintf(out, "; ");
         if (r->required)

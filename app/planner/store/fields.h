@@ -16,8 +16,8 @@ typedef enum field_kind {
     FIELD_RANGE,   /* double[2], low <= high, each in the range */
     FIELD_WORD,    /* int: number of the word in `words` */
     FIELD_TEXT,    /* char[FIELD_TEXT_SIZE] */
-    FIELD_FILE, /* char[FIELD_PATH_SIZE]: an existing file, joined to the folder of the file that names it */
-    FIELD_OTHER /* read by code of its own; `words` says in the help what it holds */
+    FIELD_FILE,    /* char[FIELD_PATH_SIZE]: an existing file, joined to the folder of the file that names it */
+    FIELD_OTHER    /* read by code of its own; `words` says in the help what it holds */
 } field_kind;
 
 typedef struct field {
@@ -45,10 +45,10 @@ typedef struct field_table {
 #define TO(v) .high = (v)
 #define BELOW(v) .high = (v), .high_open = true
 #define ANY FROM(-HUGE_VAL), TO(HUGE_VAL)
-#define NUMBER(type, member, unit_, low_, high_, help_)                                                      \
-    {                                                                                                        \
-        .name = #member, .kind = FIELD_NUMBER, .offset = offsetof(type, member), .unit = unit_, low_, high_, \
-        .help = help_                                                                                        \
+#define NUMBER(type, member, unit_, low_, high_, help_)                                                                \
+    {                                                                                                                  \
+        .name = #member, .kind = FIELD_NUMBER, .offset = offsetof(type, member), .unit = unit_, low_, high_,           \
+        .help = help_                                                                                                  \
     }
 
 /* Reads the object `o`, which stands at `pointer` in f, into target (already filled with defaults). Every
@@ -57,8 +57,7 @@ typedef struct field_table {
 void fields_read(const field_table *t, const json_file *f, const json_t *o, const char *pointer, void *target,
                  issue_list *issues);
 /* Adds an error with file, line and field of the value at the pointer. */
-void fields_issue(const json_file *f, const char *pointer, issue_list *issues, const char *fmt, ...)
-    PRINTF_LIKE(4, 5);
+void fields_issue(const json_file *f, const char *pointer, issue_list *issues, const char *fmt, ...) PRINTF_LIKE(4, 5);
 /* What the value is, in words, for messages: `"text"`, `12`, `a list`. */
 const char *fields_value_words(const json_t *value, char *words, size_t size);
 /* The help text. */

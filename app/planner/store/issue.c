@@ -11,10 +11,7 @@ static void append(issue_list *l, issue one)
     l->item[l->count++] = one;
 }
 
-static char *copy_or_null(const char *text)
-{
-    return text && *text ? mem_text(text) : NULL;
-}
+static char *copy_or_null(const char *text) { return text && *text ? mem_text(text) : NULL; }
 
 void issue_add(issue_list *l, issue_level level, err_code code, const char *file, int line, const char *field,
                const char *fmt, ...)
@@ -47,11 +44,8 @@ void issue_add_err(issue_list *l, issue_level level, const err *e, const char *f
         }
         text += strspn(text, " ");
     }
-    append(l, (issue){.level = level,
-                      .code = e->code,
-                      .line = line,
-                      .file = copy_or_null(file),
-                      .text = mem_text(text)});
+    append(l,
+           (issue){.level = level, .code = e->code, .line = line, .file = copy_or_null(file), .text = mem_text(text)});
 }
 
 void issue_sort_by_line(issue_list *l, int from)
@@ -75,8 +69,7 @@ bool issue_none_is_error(const issue_list *l, err *e)
 {
     for (int i = 0; i < l->count; i++) {
         const issue *one = &l->item[i];
-        if (one->level == ISSUE_ERROR)
-            return err_at(e, one->code, one->file, one->line, one->field, "%s", one->text);
+        if (one->level == ISSUE_ERROR) return err_at(e, one->code, one->file, one->line, one->field, "%s", one->text);
     }
     return true;
 }

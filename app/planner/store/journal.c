@@ -111,8 +111,10 @@ bool journal_open(const char *path, const char *key, bool force, journal_reader 
         ok = err_at(e, ERR_INPUT, path, 0, NULL,
                     "is not the journal of this work: the case or the settings differ; --force starts anew");
     if (ok) ok = mine > 0 ? read_records(&j, reader, context, e) : start(&j, key, e);
-    if (ok) *out = j;
-    else journal_close(&j);
+    if (ok)
+        *out = j;
+    else
+        journal_close(&j);
     return ok;
 }
 

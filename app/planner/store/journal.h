@@ -1,7 +1,7 @@
 /* journal: an append-only file of finished pieces of work, so that a run that was killed goes on where it was.
  *
- * Each record has its kind, size and checksum and is written in one call; what a kill cut off at the end is dropped when
- * the journal is opened again. The file begins with a key, the hash of all that the work depends on. */
+ * Each record has its kind, size and checksum and is written in one call; what a kill cut off at the end is dropped
+ * when the journal is opened again. The file begins with a key, the hash of all that the work depends on. */
 #pragma once
 #include "app/planner/store/content_hash.h"
 #include <stdint.h>

@@ -22,8 +22,7 @@ bool output_dir_open(const char *target, bool force, output_dir *out, err *e)
     bool folder = !stat(target, &info) && S_ISDIR(info.st_mode);
     bool earlier = folder && (has(target, "outcome.json") || has(target, "manifest.json") || has(target, "audit.json"));
     output_dir d = {.replaces = earlier && force};
-    if (earlier && !force)
-        return err_at(e, ERR_INPUT, target, 0, NULL, "holds earlier results; --force replaces them");
+    if (earlier && !force) return err_at(e, ERR_INPUT, target, 0, NULL, "holds earlier results; --force replaces them");
     if (!d.replaces) {
         if (!whole_folder_open(target, &d.part, e)) return false;
         *out = d;
@@ -52,8 +51,8 @@ bool output_dir_close(output_dir *d, err *e)
     size_t size = strlen(d->part.path) + 32;
     char *aside = NEW_ARRAY(char, size), *target = mem_text(d->part.path);
     snprintf(aside, size, "%s.old.%ld", target, (long)getpid());
-    bool ok = !rename(target, aside) ||
-              err_at(e, ERR_RESOURCE, target, 0, NULL, "cannot be replaced: %s", strerror(errno));
+    bool ok =
+        !rename(target, aside) || err_at(e, ERR_RESOURCE, target, 0, NULL, "cannot be replaced: %s", strerror(errno));
     if (!ok) {
         whole_folder_abandon(&d->part);
     } else if (whole_folder_close(&d->part, e)) {

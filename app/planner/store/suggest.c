@@ -4,10 +4,7 @@
 
 enum { LONGEST = 63 };
 
-static int smaller(int a, int b)
-{
-    return a < b ? a : b;
-}
+static int smaller(int a, int b) { return a < b ? a : b; }
 
 /* Optimal string alignment distance over three rows of the table. */
 static int distance(const char *a, const char *b)
@@ -22,8 +19,7 @@ static int distance(const char *a, const char *b)
         for (int j = 1; j <= m; j++) {
             int x = tolower((unsigned char)a[i - 1]), y = tolower((unsigned char)b[j - 1]);
             now[j] = smaller(smaller(last[j], now[j - 1]) + 1, last[j - 1] + (x != y));
-            if (i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) &&
-                y == tolower((unsigned char)a[i - 2]))
+            if (i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) && y == tolower((unsigned char)a[i - 2]))
                 now[j] = smaller(now[j], before[j - 2] + 1);
         }
     }

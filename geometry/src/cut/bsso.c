@@ -11,14 +11,21 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CANAL_POINTS = CANAL_POINTS_MAX, STATIONS = 6, HEIGHTS = 7, TERMS = 5, NODES = STATIONS + 4, LEVELS = HEIGHTS + 1 };
+enum {
+    CANAL_POINTS = CANAL_POINTS_MAX,
+    STATIONS = 6,
+    HEIGHTS = 7,
+    TERMS = 5,
+    NODES = STATIONS + 4,
+    LEVELS = HEIGHTS + 1
+};
 static const double third_molar_mm = 23; /* L6 to L7 beyond this: L7 is the third molar */
 static const double behind_m2_mm = 1;
 static const double posterior_strip_mm = 4; /* bone kept behind the lingual cut at the top */
 static const double foramen_reach_mm = 8;
-static const double foramen_drop_mm = 3;  /* mandibular foramen below the tip of the lingula */
-static const double angle_mm = 12;        /* the lingual cut meets the lower border this far before gonion */
-static const double least_lingual_mm = 4; /* least distance from the buccal to the lingual cut */
+static const double foramen_drop_mm = 3;    /* mandibular foramen below the tip of the lingula */
+static const double angle_mm = 12;          /* the lingual cut meets the lower border this far before gonion */
+static const double least_lingual_mm = 4;   /* least distance from the buccal to the lingual cut */
 static const double cusp_to_contact_mm = 2; /* mesiobuccal cusp to mesial contact of the lower first molar */
 static const double crown_mm = 1.5;         /* sagittal cut outside the molar landmarks */
 static const double least_plate_mm = 1.5;   /* least bone on either side of the sagittal cut */
@@ -73,21 +80,14 @@ static bool cross_jaw(const jaw_side *j, double y, double z, double *outside, do
     return *outside > 0 && *inside > 0;
 }
 
-static double border_height(const jaw_side *j, double y)
-{
-    return outline_at(&j->lower, y);
-}
+static double border_height(const jaw_side *j, double y) { return outline_at(&j->lower, y); }
 
-static double buccal_y(const jaw_side *j, double z)
-{
-    return j->m2[1] + j->v_slope * (z - j->m2[2]);
-}
+static double buccal_y(const jaw_side *j, double z) { return j->m2[1] + j->v_slope * (z - j->m2[2]); }
 
 static double lingual_y(const jaw_side *j, double z)
 {
     double t = (z - j->lingual[1][1]) / (j->lingual[0][1] - j->lingual[1][1]);
-    return fmax(j->lingual[1][0] + t * (j->lingual[0][0] - j->lingual[1][0]),
-                buccal_y(j, z) + least_lingual_mm);
+    return fmax(j->lingual[1][0] + t * (j->lingual[0][0] - j->lingual[1][0]), buccal_y(j, z) + least_lingual_mm);
 }
 
 static void terms(double y, double z, double t[TERMS])
@@ -129,8 +129,8 @@ static bool fit_sagittal(jaw_side *j, const osteotomy_params *p)
     double a[TERMS][TERMS + 1] = {{0}};
     int used = 0;
     for (int s = 0; s <= 24; s++) {
-        double y = buccal_y(j, j->top) + s / 24.0 * (lingual_y(j, j->top) - buccal_y(j, j->top)),
-               ridge = -HUGE_VAL, low = border_height(j, y);
+        double y = buccal_y(j, j->top) + s / 24.0 * (lingual_y(j, j->top) - buccal_y(j, j->top)), ridge = -HUGE_VAL,
+               low = border_height(j, y);
         for (int h = 0; h <= 24; h++) { /* upwards */
             double z = low + 1 + h / 24.0 * (j->top - low - 1), out, in, t[TERMS];
             if (y < buccal_y(j, z) - 2 || y > lingual_y(j, z) + 2 || !cross_jaw(j, y, z, &out, &in)) continue;
@@ -181,16 +181,14 @@ static double sagittal_x(const jaw_side *j, const osteotomy_params *p, double y,
     double low = border_height(j, y), inside_bone = fmax(z, low + 0.5);
     terms(y, inside_bone, t);
     for (int k = 0; k < TERMS; k++) x += t[k] * j->fit[k];
-    for (int k = -3; k <= 3;
-         k++) /* up to halfway to the next stations, because the sheet is straight between them */
+    for (int k = -3; k <= 3; k++) /* up to halfway to the next stations, because the sheet is straight between them */
         if (canal_at(j, y + k, canal) && fabs(z - canal[1]) < 6)
             x = fmax(x, canal[0] + canal[2] * p->canal_clearance_mm);
     double u = fmin(fmax((y - j->l6[1]) / (j->l7[1] - j->l6[1]), 0),
                     1), /* beside the molars, fading behind and below */
         away = fmax(y - j->l7[1], 0) + fmax(j->l7[2] - 10 - z, 0);
     x = fmax(x, j->l6[0] + u * (j->l7[0] - j->l6[0]) + crown_mm - away / 2);
-    if (cross_jaw(j, y, inside_bone, &out, &in) && out - in > 2 * least_plate_mm)
-        x = fmax(x, in + least_plate_mm);
+    if (cross_jaw(j, y, inside_bone, &out, &in) && out - in > 2 * least_plate_mm) x = fmax(x, in + least_plate_mm);
     return x;
 }
 
@@ -201,8 +199,7 @@ static bool locate(jaw_side *j, const osteotomy_params *p, cut_report *r, err *e
     const char *word = j->side > 0 ? "left" : "right";
     static const char *const base[] = {"L6", "L7", "Go", "SN", "RA", "RP"};
     double *const place[] = {j->l6, j->l7, j->go, j->sn, j->ra, j->rp};
-    for (int k = 0; k < 6; k++)
-        to_local(j, landmarks_find(l, side_label(label, base[k], j->side))->xyz, place[k]);
+    for (int k = 0; k < 6; k++) to_local(j, landmarks_find(l, side_label(label, base[k], j->side))->xyz, place[k]);
     for (int c = 0; c < 3; c++) {
         j->low[c] = HUGE_VAL;
         j->high[c] = -HUGE_VAL;
@@ -219,22 +216,20 @@ static bool locate(jaw_side *j, const osteotomy_params *p, cut_report *r, err *e
     if (!(j->l6[0] > 0 && j->go[0] > 0 && j->ra[1] < j->rp[1] && j->l6[1] < j->ra[1]))
         return err_set(e, ERR_INPUT, "BSSO %s: L6, RA, RP, Go are not where a mandible has them", word);
     /* Second molar: molars of a set scale together. */
-    double reach = vec_distance(j->l6, j->l7),
-           to_m2 = LOWER_M1_WIDTH_MM - cusp_to_contact_mm + LOWER_M2_WIDTH_MM, share = 1;
+    double reach = vec_distance(j->l6, j->l7), to_m2 = LOWER_M1_WIDTH_MM - cusp_to_contact_mm + LOWER_M2_WIDTH_MM,
+           share = 1;
     if (reach > third_molar_mm) {
         share = to_m2 / (to_m2 + 10); /* the third molar is 10 mm wide */
-        report_warning(
-            r,
-            "BSSO %s: L7 lies %.1f mm behind L6, so it marks the third molar; the vertical cut is placed "
-            "%.1f mm in front of it, behind the second molar",
-            word, reach, (1 - share) * reach);
+        report_warning(r,
+                       "BSSO %s: L7 lies %.1f mm behind L6, so it marks the third molar; the vertical cut is placed "
+                       "%.1f mm in front of it, behind the second molar",
+                       word, reach, (1 - share) * reach);
     }
     for (int c = 0; c < 3; c++) j->m2[c] = j->l6[c] + share * (j->l7[c] - j->l6[c]);
     j->m2[1] += behind_m2_mm;
     /* Buccal cut: at right angles to the lower border below it. */
     double ahead = border_height(j, j->m2[1] - 8), behind = border_height(j, j->m2[1] + 8);
-    if (!isfinite(ahead) || !isfinite(behind))
-        return err_set(e, ERR_GEOMETRY, "BSSO %s: no bone below L7", word);
+    if (!isfinite(ahead) || !isfinite(behind)) return err_set(e, ERR_GEOMETRY, "BSSO %s: no bone below L7", word);
     double slope = fmin(fmax((behind - ahead) / 16, -1), 1);
     j->v_slope = -slope;
     j->border_at_v = border_height(j, buccal_y(j, ahead));
@@ -251,11 +246,10 @@ static bool locate(jaw_side *j, const osteotomy_params *p, cut_report *r, err *e
             return err_set(e, ERR_GEOMETRY, "BSSO %s: no ramus where the lingula is expected", word);
         j->li[0] = in;
         j->li[2] = z;
-        report_warning(
-            r,
-            "BSSO %s: %s is missing; estimated at %.0f %% of the ramus width from behind and %.0f %% of "
-            "its height",
-            word, label, 100 * p->lingula_width_share, 100 * p->lingula_height_share);
+        report_warning(r,
+                       "BSSO %s: %s is missing; estimated at %.0f %% of the ramus width from behind and %.0f %% of "
+                       "its height",
+                       word, label, 100 * p->lingula_width_share, 100 * p->lingula_height_share);
     }
     j->top = j->li[2] + p->above_lingula_mm;
     double teeth = fmax(j->l6[2], j->l7[2]) + 1;
@@ -274,8 +268,7 @@ static bool locate(jaw_side *j, const osteotomy_params *p, cut_report *r, err *e
     j->lingual[0][0] = j->li[1] + p->behind_lingula_mm;
     j->lingual[0][1] = j->li[2] - foramen_drop_mm;
     if (room < j->li[1] + 1)
-        return err_set(e, ERR_GEOMETRY, "BSSO %s: only %.1f mm of ramus lie behind the lingula", word,
-                       last - j->li[1]);
+        return err_set(e, ERR_GEOMETRY, "BSSO %s: only %.1f mm of ramus lie behind the lingula", word, last - j->li[1]);
     double y = fmax(buccal_y(j, j->border_at_v) + least_lingual_mm, j->go[1] - angle_mm);
     j->lingual[1][0] = fmin(y, j->lingual[0][0]);
     j->lingual[1][1] = border_height(j, j->lingual[1][0]);
@@ -303,8 +296,8 @@ static void find_canal(jaw_side *j, cut_report *r)
     if (cross_jaw(j, j->canal[0][1], j->canal[0][2], &out, &in)) j->canal[0][0] = in + 1;
     j->canal_count = 1;
     for (int k = 1; k <= 4; k++) {
-        double y = j->canal[0][1] + k / 5.0 * (j->l6[1] - j->canal[0][1]), low = border_height(j, y),
-               bowed = low + 9, z = k < 3 ? fmax(bowed, j->canal[0][2] - 6.0 * k) : bowed;
+        double y = j->canal[0][1] + k / 5.0 * (j->l6[1] - j->canal[0][1]), low = border_height(j, y), bowed = low + 9,
+               z = k < 3 ? fmax(bowed, j->canal[0][2] - 6.0 * k) : bowed;
         if (!cross_jaw(j, y, z, &out, &in)) continue;
         double *q = j->canal[j->canal_count++];
         q[0] = in + fmin((out - in) / 3, 4);
@@ -324,8 +317,7 @@ static cutter block(const jaw_side *j, const osteotomy_params *p)
     double bottom = fmin(border_height(j, j->m2[1]), j->low[2]) - 2 * margin_mm;
     double lowest = fmin(j->border_at_v, j->lingual[1][1]) - 2;
     for (int l = 0; l < LEVELS; l++) {
-        double z = l < HEIGHTS ? j->top + l / (HEIGHTS - 1.0) * (lowest - j->top) : bottom,
-               zs = fmax(z, lowest);
+        double z = l < HEIGHTS ? j->top + l / (HEIGHTS - 1.0) * (lowest - j->top) : bottom, zs = fmax(z, lowest);
         double node[NODES][3], y0 = buccal_y(j, zs), y1 = lingual_y(j, zs);
         for (int s = 0; s < STATIONS; s++) {
             double y = y0 + s / (STATIONS - 1.0) * (y1 - y0);
@@ -357,8 +349,7 @@ static bool carve(const surface *box, const cutter *block_, double mm, surface *
     return ok;
 }
 
-static bool report_side(const jaw_side *j, const osteotomy_params *p, const surface *sheet, cut_report *r,
-                        err *e)
+static bool report_side(const jaw_side *j, const osteotomy_params *p, const surface *sheet, cut_report *r, err *e)
 {
     const char *word = j->side > 0 ? "left" : "right";
     char name[64];
@@ -375,8 +366,7 @@ static bool report_side(const jaw_side *j, const osteotomy_params *p, const surf
     for (int i = 0; i + 1 < j->canal_count; i++)
         for (int k = 0; k < 10; k++) {
             double q[3];
-            for (int c = 0; c < 3; c++)
-                q[c] = j->canal[i][c] + k / 10.0 * (j->canal[i + 1][c] - j->canal[i][c]);
+            for (int c = 0; c < 3; c++) q[c] = j->canal[i][c] + k / 10.0 * (j->canal[i + 1][c] - j->canal[i][c]);
             if (q[1] < buccal_y(j, q[2])) continue; /* in front of the split the canal is left alone */
             to_world(j, q, world);
             least = fmin(least, nearest_point(tree, world, NULL, NULL));
@@ -418,8 +408,7 @@ static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, c
     const char *word = j->side > 0 ? "left" : "right";
     if (in->canal[which]) {
         if (in->canal_count[which] < 2 || in->canal_count[which] > CANAL_POINTS)
-            return err_set(e, ERR_INPUT, "a canal needs 2 to %d points, got %d", CANAL_POINTS,
-                           in->canal_count[which]);
+            return err_set(e, ERR_INPUT, "a canal needs 2 to %d points, got %d", CANAL_POINTS, in->canal_count[which]);
         j->canal_count = in->canal_count[which];
         for (int i = 0; i < j->canal_count; i++) to_local(j, in->canal[which] + 3 * (size_t)i, j->canal[i]);
     } else {
@@ -427,8 +416,7 @@ static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, c
     }
     if (!fit_sagittal(j, p))
         return err_set(e, ERR_GEOMETRY, "BSSO %s: no bone between the vertical cut and the lingula", word);
-    double low[3] = {midline_mm, fmin(buccal_y(j, j->top), buccal_y(j, j->low[2])) - margin_mm,
-                     j->low[2] - margin_mm},
+    double low[3] = {midline_mm, fmin(buccal_y(j, j->top), buccal_y(j, j->low[2])) - margin_mm, j->low[2] - margin_mm},
            high[3] = {j->high[0] + margin_mm, j->high[1] + margin_mm, j->high[2] + margin_mm};
     if (j->side < 0) {
         double keep = low[0];

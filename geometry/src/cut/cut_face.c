@@ -166,8 +166,7 @@ cut_contact cut_contact_measure(const cut_face *f, const clash_body *other, cons
     return c;
 }
 
-clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const distance_tree *other_face,
-                         const rigid *rel)
+clash_spot cut_face_trim(const cut_face *f, const clash_body *other, const distance_tree *other_face, const rigid *rel)
 {
     clash_spot spot = {0};
     for (int32_t i = 0; i < f->count; i++) {

@@ -49,8 +49,7 @@ const char *side_label(char buffer[LANDMARK_LABEL_SIZE], const char *base, int s
 
 bool jaw_frame(const landmarks *l, head_frame *out, err *e)
 {
-    static const char *const needed[] = {"L1", "L6_L", "L6_R", NULL}, *const pairs[] = {"L6", "Go", "RA",
-                                                                                        "RP", "Co"};
+    static const char *const needed[] = {"L1", "L6_L", "L6_R", NULL}, *const pairs[] = {"L6", "Go", "RA", "RP", "Co"};
     if (!need_landmarks(l, "the frame of the mandible", needed, e)) return false;
     const double *front = landmarks_find(l, "L1")->xyz, *left = landmarks_find(l, "L6_L")->xyz,
                  *right = landmarks_find(l, "L6_R")->xyz;
@@ -60,8 +59,7 @@ bool jaw_frame(const landmarks *l, head_frame *out, err *e)
     vec_sub(middle, front, back);
     vec_sub(left, right, across);
     if (!(vec_norm(back) > 5) || !(vec_norm(across) > 10))
-        return err_set(e, ERR_INPUT,
-                       "L1, L6_L and L6_R are too close to each other to give the lower occlusal plane");
+        return err_set(e, ERR_INPUT, "L1, L6_L and L6_R are too close to each other to give the lower occlusal plane");
     vec_cross(across, back, f.up);
     if (!(vec_normalize(f.up) > 0)) return err_set(e, ERR_INPUT, "L1, L6_L and L6_R lie on one line");
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
@@ -98,10 +96,8 @@ outline outline_make(const surface *s, const head_frame *f, int side, int across
     outline o = {.start = low, .count = 1 + (int)ceil((high - low) / outline_step_mm), .sign = sign};
     o.extreme = NEW_ARRAY(double, o.count);
     for (int i = 0; i < o.count; i++) o.extreme[i] = -sign * HUGE_VAL;
-    for (size_t i = 0; i < 3 * (size_t)s->triangle_count;
-         i++) { /* the extreme of a section lies on an edge */
-        const double *a = local + 3 * (size_t)s->tri[i],
-                     *b = local + 3 * (size_t)s->tri[i % 3 == 2 ? i - 2 : i + 1];
+    for (size_t i = 0; i < 3 * (size_t)s->triangle_count; i++) { /* the extreme of a section lies on an edge */
+        const double *a = local + 3 * (size_t)s->tri[i], *b = local + 3 * (size_t)s->tri[i % 3 == 2 ? i - 2 : i + 1];
         double span = b[across] - a[across];
         if (!(span > 0)) continue; /* the other triangle of the edge runs upwards */
         int k = (int)ceil((a[across] - low) / outline_step_mm);
@@ -136,8 +132,8 @@ void report_clearance(cut_report *r, const char *name, double value_mm, double l
 {
     r->clearance = GROW_ARRAY(cut_clearance, r->clearance, r->clearance_count + 1);
     cut_clearance *c = r->clearance + r->clearance_count++;
-    *c = (cut_clearance){
-        .value_mm = value_mm, .limit_mm = limit_mm, .ok = value_mm >= limit_mm, .estimated = estimated};
+    *c =
+        (cut_clearance){.value_mm = value_mm, .limit_mm = limit_mm, .ok = value_mm >= limit_mm, .estimated = estimated};
     snprintf(c->name, sizeof c->name, "%s", name);
 }
 

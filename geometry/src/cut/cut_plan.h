@@ -6,9 +6,8 @@
 
 typedef struct cut_bodies {
     surface inner, outer; /* smaller and larger by half the kerf */
-    surface
-        hollow; /* inner, larger where it does not cut: outer without hollow has no face of zero thickness */
-    surface sheet; /* the middle of the cut, open; empty for user planes */
+    surface hollow;       /* inner, larger where it does not cut: outer without hollow has no face of zero thickness */
+    surface sheet;        /* the middle of the cut, open; empty for user planes */
 } cut_bodies;
 #define HOLLOW_MM 1.0
 
@@ -17,12 +16,10 @@ void cut_bodies_free(cut_bodies *b);
 cut_bodies cut_bodies_from(const cutter *c, double kerf_mm);
 
 /* The osteotomies. side: +1 left, -1 right. */
-bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r,
-                    err *e);
+bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e);
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,
                  cut_bodies *out, cut_report *r, err *e);
-bool genioplasty_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r,
-                        err *e);
+bool genioplasty_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e);
 
 /* Axes of the mandible itself, whatever the opening of the mouth: up is the normal of the lower occlusal
  * plane (L1, L6_L, L6_R), left from right to left over the paired points. */
@@ -51,8 +48,7 @@ typedef struct outline {
 } outline;
 outline outline_make(const surface *s, const head_frame *f, int side, int across, int along, int sign);
 void outline_free(outline *o);
-double outline_at(const outline *o,
-                  double x); /* infinite, of the sign opposite to `sign`, where there is no bone */
+double outline_at(const outline *o, double x); /* infinite, of the sign opposite to `sign`, where there is no bone */
 
 void report_clearance(cut_report *r, const char *name, double value_mm, double limit_mm, bool estimated);
 void report_plane(cut_report *r, const char *label, const double point[3], const double normal[3]);

@@ -7,8 +7,7 @@ static const double sharp_cosine = 0.766; /* of 40 degrees */
 
 static bool same_bone(int a, int b)
 {
-    bool skull_a = a == SEGMENT_CRANIUM || a == SEGMENT_MAXILLA,
-         skull_b = b == SEGMENT_CRANIUM || b == SEGMENT_MAXILLA;
+    bool skull_a = a == SEGMENT_CRANIUM || a == SEGMENT_MAXILLA, skull_b = b == SEGMENT_CRANIUM || b == SEGMENT_MAXILLA;
     return a != b && skull_a == skull_b;
 }
 

@@ -47,8 +47,8 @@ static double fatness(const double *a, const double *b, const double *c, const d
  * tri[3*(nodes-2)]. */
 static void triangulate(int nodes, const double *xyz, int32_t *tri)
 {
-    double n[3], *best = NEW_ARRAY(double, nodes * nodes); /* of the polygon i..j closed by the chord j, i */
-    int *apex = NEW_ARRAY(int, nodes * nodes), *stack = NEW_ARRAY(int, 4 * nodes), top = 0, made = 0;
+    double n[3], *best = NEW_ARRAY(double, nodes *nodes); /* of the polygon i..j closed by the chord j, i */
+    int *apex = NEW_ARRAY(int, nodes *nodes), *stack = NEW_ARRAY(int, 4 * nodes), top = 0, made = 0;
     polygon_normal(nodes, xyz, n);
     for (int i = 0; i + 1 < nodes; i++) best[i * nodes + i + 1] = HUGE_VAL;
     for (int span = 2; span < nodes; span++)
@@ -127,7 +127,8 @@ cutter cutter_box(const head_frame *f, const double low[3], const double high[3]
     return cutter_stack(2, 4, xyz, (const uint8_t[4]){0}, false, false);
 }
 
-/* Turns the symmetric a into its eigenvalues (diagonal) and the columns of q into its eigenvectors: Jacobi rotations. */
+/* Turns the symmetric a into its eigenvalues (diagonal) and the columns of q into its eigenvectors: Jacobi rotations.
+ */
 static void eigen3(double a[9], double q[9])
 {
     for (int i = 0; i < 9; i++) q[i] = i % 4 == 0;
@@ -172,8 +173,7 @@ static void solve_offset(double a[9], const double b[3], double x[3])
 surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm)
 {
     surface out = surface_copy(&c->body);
-    double *a = NEW_ARRAY(double, 9 * (size_t)out.vertex_count),
-           *b = NEW_ARRAY(double, 3 * (size_t)out.vertex_count);
+    double *a = NEW_ARRAY(double, 9 * (size_t)out.vertex_count), *b = NEW_ARRAY(double, 3 * (size_t)out.vertex_count);
     for (int32_t t = 0; t < out.triangle_count; t++) {
         const int32_t *v = c->body.tri + 3 * (size_t)t;
         double u[3], w[3], n[3], amount = c->moves[t] ? moving_mm : fixed_mm;
@@ -197,7 +197,4 @@ surface cutter_offset(const cutter *c, double moving_mm, double fixed_mm)
     return out;
 }
 
-surface cutter_sheet(const cutter *c)
-{
-    return surface_select(&c->body, c->moves);
-}
+surface cutter_sheet(const cutter *c) { return surface_select(&c->body, c->moves); }

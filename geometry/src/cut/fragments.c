@@ -72,16 +72,14 @@ static double gap(const surface *s, const nearest *tree)
     return least;
 }
 
-static void judge(shells *mine, segment_id id, const nearest *my_main, segment_id other_id,
-                  const nearest *other_main, const nearest *kerf, bool cut_only, double limit_mm3,
-                  cut_report *r)
+static void judge(shells *mine, segment_id id, const nearest *my_main, segment_id other_id, const nearest *other_main,
+                  const nearest *kerf, bool cut_only, double limit_mm3, cut_report *r)
 {
     static const double touching_mm = 1e-3; /* islands made by the cut share points with the kerf */
     for (int32_t i = 0; i < mine->count; i++) {
         if (i == mine->main || mine->volume[i] <= 0) continue;
         if (cut_only && gap(mine->shell + i, kerf) > touching_mm) continue;
-        double here = gap(mine->shell + i, my_main), there = gap(mine->shell + i, other_main), low[3],
-               high[3];
+        double here = gap(mine->shell + i, my_main), there = gap(mine->shell + i, other_main), low[3], high[3];
         mine->leaves[i] = there < here && mine->volume[i] < limit_mm3;
         r->fragment = GROW_ARRAY(cut_fragment, r->fragment, r->fragment_count + 1);
         cut_fragment *f = r->fragment + r->fragment_count++;
@@ -105,8 +103,8 @@ static surface chosen(const surface *s, const shells *h, bool leaving)
     return out;
 }
 
-bool fragments_settle(surface *piece, segment_id piece_id, surface *rest, segment_id rest_id,
-                      const surface *kerf, double limit_mm3, cut_report *r, err *e)
+bool fragments_settle(surface *piece, segment_id piece_id, surface *rest, segment_id rest_id, const surface *kerf,
+                      double limit_mm3, cut_report *r, err *e)
 {
     shells a = {0}, b = {0};
     nearest *piece_main = NULL, *rest_main = NULL, *saw = NULL;
@@ -115,8 +113,8 @@ bool fragments_settle(surface *piece, segment_id piece_id, surface *rest, segmen
     if (ok) {
         judge(&a, piece_id, piece_main, rest_id, rest_main, saw, false, limit_mm3, r);
         judge(&b, rest_id, rest_main, piece_id, piece_main, saw, true, limit_mm3, r);
-        surface stay_a = chosen(piece, &a, false), go_a = chosen(piece, &a, true),
-                stay_b = chosen(rest, &b, false), go_b = chosen(rest, &b, true);
+        surface stay_a = chosen(piece, &a, false), go_a = chosen(piece, &a, true), stay_b = chosen(rest, &b, false),
+                go_b = chosen(rest, &b, true);
         surface_free(piece);
         surface_free(rest);
         *piece = surface_joined(&stay_a, &go_b);

@@ -7,9 +7,8 @@
 #include <stdio.h>
 
 static const double margin_mm = 15, clear_mm = 0.5;
-static const double least_height_mm = 6, least_apex_mm = 1,
-                    step_mm = 0.5;     /* below this no plate can be screwed on */
-static const double behind_l6_mm = 17; /* the second molar ends about here */
+static const double least_height_mm = 6, least_apex_mm = 1, step_mm = 0.5; /* below this no plate can be screwed on */
+static const double behind_l6_mm = 17;                                     /* the second molar ends about here */
 
 typedef struct chin {
     const surface *mandible;
@@ -19,15 +18,9 @@ typedef struct chin {
     double y0, z0, slope; /* the plane: z = z0 + slope (y - y0) */
 } chin;
 
-static double plane_z(const chin *c, double y)
-{
-    return c->z0 + c->slope * (y - c->y0);
-}
+static double plane_z(const chin *c, double y) { return c->z0 + c->slope * (y - c->y0); }
 
-static double border_height(const chin *c, int side, double y)
-{
-    return outline_at(c->lower + (side < 0), y);
-}
+static double border_height(const chin *c, int side, double y) { return outline_at(c->lower + (side < 0), y); }
 
 /* Where, going backwards from `from`, the lower border rises above the plane; HUGE_VAL if not before `to`. */
 static double exit_y(const chin *c, int side, double from, double to)
@@ -43,8 +36,8 @@ typedef struct guard_point { /* the plane passes at least `below` under it */
     bool estimated, root;
 } guard_point;
 
-static int guards(const osteotomy_input *in, const osteotomy_params *p, const head_frame *f,
-                  guard_point out[8], cut_report *r)
+static int guards(const osteotomy_input *in, const osteotomy_params *p, const head_frame *f, guard_point out[8],
+                  cut_report *r)
 {
     int count = 0;
     for (int side = 1; side >= -1; side -= 2) {
@@ -65,8 +58,7 @@ static int guards(const osteotomy_input *in, const osteotomy_params *p, const he
             g->estimated = true;
             count++;
         } else {
-            report_warning(r, "%s is missing: the chin cut is not checked against the %s canine", label,
-                           word);
+            report_warning(r, "%s is missing: the chin cut is not checked against the %s canine", label, word);
         }
     }
     guard_point *g = out + count++;
@@ -85,8 +77,7 @@ static void settle(chin *c, const guard_point *g, int count)
     double z = HUGE_VAL;
     for (int i = 0; i < count; i++) {
         double below = g[i].root ? c->apex_mm : g[i].below;
-        z = fmin(z,
-                 g[i].local[2] - below * sqrt(1 + c->slope * c->slope) - c->slope * (g[i].local[1] - c->y0));
+        z = fmin(z, g[i].local[2] - below * sqrt(1 + c->slope * c->slope) - c->slope * (g[i].local[1] - c->y0));
     }
     c->z0 = z;
 }
@@ -117,8 +108,8 @@ static void place(chin *c, const guard_point *g, int count, double first, double
     mean_exit(c, g, count, from, to);
 }
 
-static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin *c, cut_bodies *out,
-                      cut_report *r, err *e)
+static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin *c, cut_bodies *out, cut_report *r,
+                      err *e)
 {
     double me[3], l6[2][3], go[2][3], mf[3];
     landmark_local(in->points, "Me", &c->frame, me);
@@ -143,15 +134,13 @@ static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin
                        "hold a plate",
                        c->apex_mm, plane_z(c, me[1]) - me[2]);
     if (fabs(c->slope) > 1e-6)
-        report_warning(
-            r,
-            "the chin cut is tilted by %.1f degrees against the lower occlusal plane, to leave the lower "
-            "border beside the molars",
-            atan(c->slope) * 180 / acos(-1));
+        report_warning(r,
+                       "the chin cut is tilted by %.1f degrees against the lower occlusal plane, to leave the lower "
+                       "border beside the molars",
+                       atan(c->slope) * 180 / acos(-1));
     double left = exit_y(c, 1, from, to), right = exit_y(c, -1, from, to), end = fmax(left, right);
     if (!(end < to))
-        return err_set(e, ERR_GEOMETRY,
-                       "the chin cut does not leave the lower border in front of the angles");
+        return err_set(e, ERR_GEOMETRY, "the chin cut does not leave the lower border in front of the angles");
     /* Where the plane is furthest below the bone the body can end without cutting. */
     double wall = end, best = -HUGE_VAL;
     for (double y = end; y <= end + margin_mm && y <= to; y += 0.5) {
@@ -178,19 +167,16 @@ static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin
     double front = low[1] - margin_mm, bottom = fmin(low[2], plane_z(c, front)) - margin_mm;
     for (int side = 0; side < 2; side++) {
         double x = side ? high[0] + margin_mm : low[0] - margin_mm;
-        double corner[4][3] = {{x, front, plane_z(c, front)},
-                               {x, wall, plane_z(c, wall)},
-                               {x, wall, bottom},
-                               {x, front, bottom}};
+        double corner[4][3] = {
+            {x, front, plane_z(c, front)}, {x, wall, plane_z(c, wall)}, {x, wall, bottom}, {x, front, bottom}};
         for (int k = 0; k < 4; k++) head_frame_to_world(&c->frame, corner[k], xyz + 3 * (4 * side + k));
     }
     cutter body = cutter_stack(2, 4, xyz, (const uint8_t[4]){1, 0, 0, 0}, false, false);
     double tilt = sqrt(1 + c->slope * c->slope), point[3], normal[3], at[3] = {0, me[1], plane_z(c, me[1])};
     for (int i = 0; i < count; i++)
-        report_clearance(r, list[i].name, (list[i].local[2] - plane_z(c, list[i].local[1])) / tilt,
-                         list[i].below, list[i].estimated);
-    report_clearance(r, "chin height at the midline", (plane_z(c, me[1]) - me[2]) / tilt, p->chin_height_mm,
-                     false);
+        report_clearance(r, list[i].name, (list[i].local[2] - plane_z(c, list[i].local[1])) / tilt, list[i].below,
+                         list[i].estimated);
+    report_clearance(r, "chin height at the midline", (plane_z(c, me[1]) - me[2]) / tilt, p->chin_height_mm, false);
     report_clearance(r, "chin cut leaves the border behind L6 left", left - l6[0][1], 0, false);
     report_clearance(r, "chin cut leaves the border behind L6 right", right - l6[1][1], 0, false);
     head_frame_to_world(&c->frame, at, point);
@@ -201,8 +187,7 @@ static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin
     return true;
 }
 
-bool genioplasty_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r,
-                        err *e)
+bool genioplasty_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e)
 {
     static const char *const needed[] = {"L1", "L6_L", "L6_R", "Me", "MF_L", "MF_R", "Go_L", "Go_R", NULL};
     if (!need_landmarks(in->points, "genioplasty", needed, e)) return false;

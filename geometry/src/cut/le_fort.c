@@ -10,8 +10,8 @@
 enum { COLUMNS = 10, PROFILE = 6 }; /* profile: front, PR, ZB, PM, foot behind, foot in front */
 static const double front_mm = 25;  /* the sheet starts this far before the foremost of U1 and ANS */
 static const double below_teeth_mm = 15;
-static const double buttress_mm = 2; /* beyond ZB by this the sheet falls away, to leave the zygoma alone */
-static const double wall_mm = 9;     /* outer wall beyond ZB or the first molar */
+static const double buttress_mm = 2;     /* beyond ZB by this the sheet falls away, to leave the zygoma alone */
+static const double wall_mm = 9;         /* outer wall beyond ZB or the first molar */
 static const double palate_half_mm = 12; /* half the width of the choanae */
 static const double spine_mm = 1.5;      /* the separation passes this far behind PNS at the midline */
 static const double raise_step_mm = 0.25;
@@ -118,8 +118,7 @@ static int probes(const osteotomy_input *in, const setting *s, probe out[16], cu
         vec_sub(apex->xyz, u1, incisor);
     else { /* 111 degrees to the Frankfort plane */
         for (int c = 0; c < 3; c++) incisor[c] = 0.934 * s->frame.up[c] + 0.358 * s->frame.posterior[c];
-        report_warning(r,
-                       "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
+        report_warning(r, "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
                        UPPER_1_MM);
     }
     vec_normalize(incisor);
@@ -207,8 +206,7 @@ static void describe(const setting *s, cut_report *r)
     }
 }
 
-bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r,
-                    err *e)
+bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e)
 {
     static const char *const needed[] = {"PR_L", "PR_R", "ZB_L", "ZB_R", "PM_L", "PM_R", "ANS", "PNS",
                                          "U1",   "U6_L", "U6_R", "Po_L", "Po_R", "Or_L", NULL};
@@ -223,8 +221,7 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
         landmark_local(in->points, side_label(label, names[k], 1), &s.frame, levels[k]->left);
         landmark_local(in->points, side_label(label, names[k], -1), &s.frame, levels[k]->right);
         if (!(levels[k]->left[0] - levels[k]->right[0] > 10))
-            return err_set(e, ERR_INPUT, "%s_L and %s_R are not left and right of each other", names[k],
-                           names[k]);
+            return err_set(e, ERR_INPUT, "%s_L and %s_R are not left and right of each other", names[k], names[k]);
     }
     for (int k = 0; k < 2; k++) {
         double local[3];
@@ -237,8 +234,7 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
     s.u6_low = fmin(u6[0], u6[1]);
     if (!(s.pr.left[1] < s.zb.left[1] && s.zb.left[1] < s.pm.left[1] && s.pr.right[1] < s.zb.right[1] &&
           s.zb.right[1] < s.pm.right[1] && s.ans[1] < s.pns[1]))
-        return err_set(e, ERR_INPUT,
-                       "Le Fort I: PR, ZB, PM (and ANS, PNS) must follow each other from front to back");
+        return err_set(e, ERR_INPUT, "Le Fort I: PR, ZB, PM (and ANS, PNS) must follow each other from front to back");
     probe list[16];
     double mm[16];
     int count = probes(in, &s, list, r);

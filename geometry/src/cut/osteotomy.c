@@ -19,8 +19,7 @@ static double now(void)
 
 /* Cuts `piece` off *rest and adds to *kerf. */
 static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, segment_id rest_id,
-                    const osteotomy_params *p, surface *rest, surface *piece, surface *kerf, cut_report *r,
-                    err *e)
+                    const osteotomy_params *p, surface *rest, surface *piece, surface *kerf, cut_report *r, err *e)
 {
     surface shell = {0}, off = {0}, left = {0}, dust = {0};
     double start = now(), before = surface_volume(rest);
@@ -44,8 +43,8 @@ static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, 
         r->balance = GROW_ARRAY(cut_balance, r->balance, r->balance_count + 1);
         r->balance[r->balance_count++] = c;
         if (!(c.error_share <= balance_limit))
-            ok = err_set(e, ERR_GEOMETRY, "volumes do not add up: %.1f + %.1f + %.1f of %.1f mm^3",
-                         c.piece_mm3, c.rest_mm3, c.kerf_mm3, before);
+            ok = err_set(e, ERR_GEOMETRY, "volumes do not add up: %.1f + %.1f + %.1f of %.1f mm^3", c.piece_mm3,
+                         c.rest_mm3, c.kerf_mm3, before);
     }
     if (ok) ok = fragments_settle(&off, piece_id, &left, rest_id, &dust, p->fragment_mm3, r, e);
     if (ok) {
@@ -65,8 +64,8 @@ static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, 
 }
 
 /* A box around the bone, cut down by every plane of this label. */
-static bool plane_bodies(const osteotomy_input *in, const char *label, const surface *bone,
-                         const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e)
+static bool plane_bodies(const osteotomy_input *in, const char *label, const surface *bone, const osteotomy_params *p,
+                         cut_bodies *out, cut_report *r, err *e)
 {
     double low[3], high[3], centre[3], size;
     surface_bounds(bone, low, high);
@@ -88,8 +87,7 @@ static bool plane_bodies(const osteotomy_input *in, const char *label, const sur
         vec_axpy(centre, -vec_dot(f.origin, f.up), f.up, f.origin);
         for (int k = 0; k < 3 && ok; k++) {
             /* Boxes of several planes differ in size, so that they share no face. */
-            double far = size * (1 + 0.01 * i) + (k == 2 ? HOLLOW_MM : 0),
-                   start = (k == 1 ? -1 : 1) * p->kerf_mm / 2;
+            double far = size * (1 + 0.01 * i) + (k == 2 ? HOLLOW_MM : 0), start = (k == 1 ? -1 : 1) * p->kerf_mm / 2;
             cutter box = cutter_box(&f, (double[3]){-far, -far, start}, (double[3]){far, far, start + far});
             if (!body[k].triangle_count) {
                 body[k] = surface_copy(&box.body);
@@ -140,10 +138,8 @@ static bool check_input(const osteotomy_input *in, err *e)
     bool skull = (in->kinds & OSTEOTOMY_LE_FORT_1) || has_planes(in, SEGMENT_MAXILLA);
     bool mandible = (in->kinds & (OSTEOTOMY_BSSO | OSTEOTOMY_GENIOPLASTY)) || has_planes(in, SEGMENT_CHIN) ||
                     has_planes(in, SEGMENT_PROXIMAL_LEFT) || has_planes(in, SEGMENT_PROXIMAL_RIGHT);
-    if (skull && !in->skull)
-        return err_set(e, ERR_INPUT, "the maxilla is to be cut but the case has no skull");
-    if (mandible && !in->mandible)
-        return err_set(e, ERR_INPUT, "the mandible is to be cut but the case has none");
+    if (skull && !in->skull) return err_set(e, ERR_INPUT, "the maxilla is to be cut but the case has no skull");
+    if (mandible && !in->mandible) return err_set(e, ERR_INPUT, "the mandible is to be cut but the case has none");
     return true;
 }
 
@@ -217,8 +213,8 @@ static bool check_places(const osteotomy_input *in, const segments *s, cut_repor
     return ok;
 }
 
-static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, segment_id id,
-                        const nearest *jaw, segments *s, cut_report *r, err *e)
+static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
+                        segments *s, cut_report *r, err *e)
 {
     bool upper = id == SEGMENT_MAXILLA, planes = has_planes(in, id);
     segment_id rest = upper ? SEGMENT_CRANIUM : SEGMENT_DISTAL;
@@ -242,8 +238,7 @@ static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, se
     return ok;
 }
 
-bool osteotomy_cut(const osteotomy_input *in, const osteotomy_params *p, segments *out, cut_report *report,
-                   err *e)
+bool osteotomy_cut(const osteotomy_input *in, const osteotomy_params *p, segments *out, cut_report *report, err *e)
 {
     if (!osteotomy_params_check(p, e) || !check_input(in, e)) return false;
     segments s = {0};
@@ -252,8 +247,7 @@ bool osteotomy_cut(const osteotomy_input *in, const osteotomy_params *p, segment
     if (in->skull) s.part[SEGMENT_CRANIUM] = surface_copy(in->skull);
     if (in->mandible) s.part[SEGMENT_DISTAL] = surface_copy(in->mandible);
     bool ok = !in->mandible || nearest_create(in->mandible, &jaw, e);
-    static const segment_id order[] = {SEGMENT_MAXILLA, SEGMENT_PROXIMAL_LEFT, SEGMENT_PROXIMAL_RIGHT,
-                                       SEGMENT_CHIN};
+    static const segment_id order[] = {SEGMENT_MAXILLA, SEGMENT_PROXIMAL_LEFT, SEGMENT_PROXIMAL_RIGHT, SEGMENT_CHIN};
     for (int i = 0; i < 4 && ok; i++) ok = cut_segment(in, p, order[i], jaw, &s, &r, e);
     ok = ok && check_places(in, &s, &r, e);
     nearest_destroy(&jaw);

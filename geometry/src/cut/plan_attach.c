@@ -53,8 +53,7 @@ static void loosen(attach_map *a, int32_t v)
     a->segment[v] = -1;
 }
 
-static void settle(const field *f, const plan_attach_params *p, int32_t v, attach_map *a,
-                   plan_attach_report *r)
+static void settle(const field *f, const plan_attach_params *p, int32_t v, attach_map *a, plan_attach_report *r)
 {
     const double *x = f->t->mesh.xyz + 3 * (size_t)v;
     int other;
@@ -83,8 +82,7 @@ static void pull_thorns(const tissue *t, attach_map *a, plan_attach_report *r)
         const int32_t *v = t->mesh.tet + 4 * (size_t)i;
         for (int k = 0; k < 4; k++) {
             int same = 0;
-            for (int j = 0; j < 4; j++)
-                same += a->kind[v[j]] != NODE_FREE && a->segment[v[j]] == a->segment[v[k]];
+            for (int j = 0; j < 4; j++) same += a->kind[v[j]] != NODE_FREE && a->segment[v[j]] == a->segment[v[k]];
             rooted[v[k]] |= same >= 3;
         }
     }
@@ -105,8 +103,7 @@ static void part_bridges(const field *f, attach_map *a, plan_attach_report *r)
         for (int i = 0; i < 4; i++)
             for (int j = 0; j < i; j++) {
                 int32_t u = m->tet[4 * (size_t)t + (size_t)i], v = m->tet[4 * (size_t)t + (size_t)j];
-                if (a->kind[u] == NODE_FREE || a->kind[v] == NODE_FREE ||
-                    moves_as(f, a->segment[u], a->segment[v]))
+                if (a->kind[u] == NODE_FREE || a->kind[v] == NODE_FREE || moves_as(f, a->segment[u], a->segment[v]))
                     continue;
                 if (!is_carried(a->segment[u], a->segment[v]) && a->kind[u] == NODE_TIED) go[u] = 1;
                 if (!is_carried(a->segment[v], a->segment[u]) && a->kind[v] == NODE_TIED) go[v] = 1;
@@ -130,8 +127,8 @@ static attach_map copy_of(const attach_map *a)
     return b;
 }
 
-bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT],
-                 const plan_attach_params *p, attach_map *out, plan_attach_report *report, err *e)
+bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const plan_attach_params *p,
+                 attach_map *out, plan_attach_report *report, err *e)
 {
     field f = {.t = t, .motion = motion};
     bool ok = true;

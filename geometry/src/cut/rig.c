@@ -2,10 +2,7 @@
 #include "geometry/vec.h"
 #include <stddef.h>
 
-static double radians(double degrees)
-{
-    return degrees * (M_PI / 180);
-}
+static double radians(double degrees) { return degrees * (M_PI / 180); }
 
 rig_controls rig_controls_default(void)
 {
@@ -14,8 +11,8 @@ rig_controls rig_controls_default(void)
     return c;
 }
 
-static rigid turn_about(const head_frame *f, const double pivot[3], const double pitch_axis[3],
-                        double pitch_deg, double yaw_deg, double roll_deg)
+static rigid turn_about(const head_frame *f, const double pivot[3], const double pitch_axis[3], double pitch_deg,
+                        double yaw_deg, double roll_deg)
 {
     /* no rotation stays the exact identity: pure translations keep their digits */
     rigid all = rigid_identity();
@@ -68,8 +65,7 @@ rigid rig_jaw_motion(const jaw_motion *j, const head_frame *f, const double cond
 static bool check_number(double x, const char *segment, const char *name, err *e)
 {
     if (isfinite(x)) return true;
-    return err_set(e, ERR_INPUT, "%s%s%s is not a finite number", segment ? segment : "", segment ? "." : "",
-                   name);
+    return err_set(e, ERR_INPUT, "%s%s%s is not a finite number", segment ? segment : "", segment ? "." : "", name);
 }
 
 static bool check_controls(const rig_controls *c, err *e)
@@ -80,8 +76,7 @@ static bool check_controls(const rig_controls *c, err *e)
         !check_number(c->mandible_advance_mm, NULL, "mandible_advance_mm", e) ||
         !check_number(c->chin_advance_mm, NULL, "chin_advance_mm", e) ||
         !check_number(j->open_deg, "jaw", "open_deg", e) || !check_number(j->yaw_deg, "jaw", "yaw_deg", e) ||
-        !check_number(j->roll_deg, "jaw", "roll_deg", e) ||
-        !check_number(j->protrude_mm, "jaw", "protrude_mm", e) ||
+        !check_number(j->roll_deg, "jaw", "roll_deg", e) || !check_number(j->protrude_mm, "jaw", "protrude_mm", e) ||
         !check_number(j->path_slope_deg, "jaw", "path_slope_deg", e))
         return false;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
@@ -98,8 +93,8 @@ static bool check_controls(const rig_controls *c, err *e)
             if (!check_number(m->translate_mm[k], name, "translate_mm", e) ||
                 !check_number(m->pivot_mm[k], name, "pivot_mm", e))
                 return false;
-        if (!check_number(m->pitch_deg, name, "pitch_deg", e) ||
-            !check_number(m->yaw_deg, name, "yaw_deg", e) || !check_number(m->roll_deg, name, "roll_deg", e))
+        if (!check_number(m->pitch_deg, name, "pitch_deg", e) || !check_number(m->yaw_deg, name, "yaw_deg", e) ||
+            !check_number(m->roll_deg, name, "roll_deg", e))
             return false;
     }
     if (c->move[SEGMENT_CRANIUM].kind != MOVE_NONE)
@@ -123,19 +118,17 @@ static bool check_condyles(const double (*condyle)[3], const head_frame *f, err 
 {
     if (!condyle) return err_set(e, ERR_INPUT, "a jaw motion needs both condyles");
     for (int k = 0; k < 6; k++)
-        if (!isfinite(condyle[k / 3][k % 3]))
-            return err_set(e, ERR_INPUT, "a condyle is not at a finite position");
+        if (!isfinite(condyle[k / 3][k % 3])) return err_set(e, ERR_INPUT, "a condyle is not at a finite position");
     double hinge[3];
     vec_sub(condyle[0], condyle[1], hinge);
     if (!(vec_dot(hinge, f->left) > 40)) /* adults: 90 to 110 mm */
-        return err_set(e, ERR_INPUT,
-                       "the left condyle is %.3g mm to the left of the right one, must be over 40",
+        return err_set(e, ERR_INPUT, "the left condyle is %.3g mm to the left of the right one, must be over 40",
                        vec_dot(hinge, f->left));
     return true;
 }
 
-bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3],
-                rigid motion[SEGMENT_COUNT], err *e)
+bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3], rigid motion[SEGMENT_COUNT],
+                err *e)
 {
     const jaw_motion *j = &c->jaw;
     bool jaw_moves = j->open_deg != 0 || j->yaw_deg != 0 || j->roll_deg != 0 || j->protrude_mm != 0;

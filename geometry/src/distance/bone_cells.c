@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 static const double corner_share = 0.8661; /* of a cube's side: its middle to a corner */
-enum { SIDE = 4, PROBES = 3 }; /* cells along a block, test points along a cell at the surface */
+enum { SIDE = 4, PROBES = 3 };             /* cells along a block, test points along a cell at the surface */
 
 /* The lattice's axes: turned about (1, 2, 3) by 1 rad, which no symmetric body shares. */
 static rigid lattice(void)
@@ -51,8 +51,7 @@ static void fill_cell(bone_cells *b, const solid_grid *g, const rigid *axes, con
 static bone_block block_around(const bone_cells *b, int32_t first)
 {
     bone_block k = {.first = first, .count = b->count - first};
-    for (int32_t i = first; i < b->count; i++)
-        vec_axpy(k.centre, 1.0 / k.count, b->lump + 4 * (size_t)i, k.centre);
+    for (int32_t i = first; i < b->count; i++) vec_axpy(k.centre, 1.0 / k.count, b->lump + 4 * (size_t)i, k.centre);
     for (int32_t i = first; i < b->count; i++)
         k.radius = fmax(k.radius, vec_distance(k.centre, b->lump + 4 * (size_t)i));
     return k;

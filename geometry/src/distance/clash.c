@@ -3,10 +3,7 @@
 #include "geometry/src/distance/clash_body.h"
 #include <stdlib.h>
 
-clash_params clash_params_default(void)
-{
-    return (clash_params){.cell_mm = 0.7, .step_mm = 0.7, .tolerance_mm = 0.02};
-}
+clash_params clash_params_default(void) { return (clash_params){.cell_mm = 0.7, .step_mm = 0.7, .tolerance_mm = 0.02}; }
 
 bool clash_body_make(const surface *s, const uint8_t *kind, const clash_params *p, clash_body **out, err *e)
 {
@@ -37,15 +34,9 @@ void clash_body_free(clash_body **b)
     *b = NULL;
 }
 
-const solid_grid *clash_body_grid(const clash_body *b)
-{
-    return b->grid;
-}
+const solid_grid *clash_body_grid(const clash_body *b) { return b->grid; }
 
-const distance_tree *clash_body_tree(const clash_body *b)
-{
-    return b->tree;
-}
+const distance_tree *clash_body_tree(const clash_body *b) { return b->tree; }
 
 double clash_volume(const clash_body *still, const clash_body *moved, const rigid *rel)
 {

@@ -56,8 +56,8 @@ static void try_point(hunt *h, const double p[3], const double from[3], double d
         keep_best(h, inside ? 0 : distance_tree_between(h->other->tree, p, 0, h->best, NULL), p);
 }
 
-/* Tries the middle of a piece; false if no point within this radius of it can better the best. d: at most so deep, or the
- * distance. */
+/* Tries the middle of a piece; false if no point within this radius of it can better the best. d: at most so deep, or
+ * the distance. */
 static bool try_middle(hunt *h, const double p[3], const look *l, double radius, double *d)
 {
     const double tolerance = h->other->tolerance_mm, spare = radius > tolerance ? radius - tolerance : 0;

@@ -115,16 +115,15 @@ distance_tree *distance_tree_make(const surface *s)
 {
     int32_t count = s->triangle_count;
     distance_tree *t = NEW_ARRAY(distance_tree, 1);
-    making m = {
-        .s = s, .t = t, .order = NEW_ARRAY(int32_t, count), .middle = NEW_ARRAY(double, 3 * (size_t)count)};
+    making m = {.s = s, .t = t, .order = NEW_ARRAY(int32_t, count), .middle = NEW_ARRAY(double, 3 * (size_t)count)};
     t->node = NEW_ARRAY(tree_node, count + 1); /* enough: of each at least two children hold some */
     t->triangle = NEW_ARRAY(tree_triangle, count);
     if (count) find_size(t, s);
     for (int32_t i = 0; i < count; i++) {
         m.order[i] = i;
         for (int k = 0; k < 3; k++)
-            vec_axpy(m.middle + 3 * (size_t)i, 1 / 3.0,
-                     s->xyz + 3 * (size_t)s->tri[3 * (size_t)i + (size_t)k], m.middle + 3 * (size_t)i);
+            vec_axpy(m.middle + 3 * (size_t)i, 1 / 3.0, s->xyz + 3 * (size_t)s->tri[3 * (size_t)i + (size_t)k],
+                     m.middle + 3 * (size_t)i);
     }
     (void)make_node(&m, (range){0, count});
     t->node = GROW_ARRAY(tree_node, t->node, t->node_count);
@@ -166,9 +165,9 @@ static void try_triangle(question *q, const tree_triangle *t)
 {
     double ap[3], near[3], d[3], v, w;
     vec_sub(q->p, t->a, ap);
-    double d1 = vec_dot(t->ab, ap), d2 = vec_dot(t->ac, ap), aa = vec_dot(t->ab, t->ab),
-           bb = vec_dot(t->ac, t->ac), m = vec_dot(t->ab, t->ac), d3 = d1 - aa, d4 = d2 - m, d5 = d1 - m,
-           d6 = d2 - bb, vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    double d1 = vec_dot(t->ab, ap), d2 = vec_dot(t->ac, ap), aa = vec_dot(t->ab, t->ab), bb = vec_dot(t->ac, t->ac),
+           m = vec_dot(t->ab, t->ac), d3 = d1 - aa, d4 = d2 - m, d5 = d1 - m, d6 = d2 - bb, vc = d1 * d4 - d3 * d2,
+           vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
     if (d1 <= 0 && d2 <= 0)
         v = w = 0;
     else if (d3 >= 0 && d4 <= d3)
@@ -223,8 +222,7 @@ static void visit(question *q, const tree_node *n)
     }
 }
 
-double distance_tree_between(const distance_tree *t, const double p[3], double low, double high,
-                             distance_hit *hit)
+double distance_tree_between(const distance_tree *t, const double p[3], double low, double high, distance_hit *hit)
 {
     question q = {.t = t, .low2 = low > 0 ? low * low : -1, .best2 = high * high};
     vec_copy(p, q.p);

@@ -71,7 +71,8 @@ static inline bool crosses(const grid_triangle *t, const double p[3], const doub
     return *share >= 0 && *share < 1;
 }
 
-static inline int crossings(const solid_grid *g, size_t c, const double p[3], const double way[3], double from, double to)
+static inline int crossings(const solid_grid *g, size_t c, const double p[3], const double way[3], double from,
+                            double to)
 {
     int count = 0;
     double share;

@@ -26,7 +26,8 @@ static const double *corner(const surface *s, int32_t t, int k)
     return s->xyz + 3 * (size_t)s->tri[3 * (size_t)t + (size_t)k];
 }
 
-static void close_patch(patches *l, const surface *s, const uint8_t *kind, const double *box, int32_t first, int32_t end)
+static void close_patch(patches *l, const surface *s, const uint8_t *kind, const double *box, int32_t first,
+                        int32_t end)
 {
     patch p = {.first = first, .count = end - first};
     bool outside = false;
@@ -67,7 +68,8 @@ static sort_key key_of(const surface *s, int32_t t)
 patches patches_make(const surface *s, const uint8_t *kind, const double *box)
 {
     int32_t count = s->triangle_count, first = 0, group = 0;
-    patches l = {.patch = NEW_ARRAY(patch, count), .group = NEW_ARRAY(patch, count), .order = NEW_ARRAY(int32_t, count)};
+    patches l = {
+        .patch = NEW_ARRAY(patch, count), .group = NEW_ARRAY(patch, count), .order = NEW_ARRAY(int32_t, count)};
     sort_key *key = NEW_ARRAY(sort_key, count);
     for (int32_t t = 0; t < count; t++) key[t] = key_of(s, t);
     qsort(key, (size_t)count, sizeof *key, by_box);

@@ -11,10 +11,7 @@ static size_t cell_index(const sdf_grid *g, int32_t i, int32_t j, int32_t k)
     return (size_t)i + (size_t)g->size[0] * ((size_t)j + (size_t)g->size[1] * (size_t)k);
 }
 
-static int32_t clamp_index(double v, int32_t size)
-{
-    return v < 0 ? 0 : v > size - 1 ? size - 1 : (int32_t)v;
-}
+static int32_t clamp_index(double v, int32_t size) { return v < 0 ? 0 : v > size - 1 ? size - 1 : (int32_t)v; }
 
 /* Grid lines run along x at (j, k), shifted by an odd fraction of a step so that they miss vertices and edges of
  * surfaces that were themselves made on a grid. */

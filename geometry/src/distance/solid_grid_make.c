@@ -59,7 +59,7 @@ static bool passes_by(const grid_triangle *t, const double middle[3], double hal
 }
 
 typedef struct meeting { /* of a cube and a triangle */
-    size_t at; /* the cube's number */
+    size_t at;           /* the cube's number */
     int32_t triangle;
 } meeting;
 
@@ -109,21 +109,16 @@ static void sort_triangles(solid_grid *g, size_t cells)
     free(fill);
 }
 
-static bool is_full(const solid_grid *g, size_t c)
-{
-    return g->start[c] != g->start[c + 1];
-}
+static bool is_full(const solid_grid *g, size_t c) { return g->start[c] != g->start[c + 1]; }
 
 /* Of a cube in an array with a rim of one cube all around. */
 static size_t rimmed(const solid_grid *g, const int32_t i[3])
 {
-    return ((size_t)(i[2] + 1) * (size_t)(g->n[1] + 2) + (size_t)(i[1] + 1)) * (size_t)(g->n[0] + 2) + (size_t)(i[0] + 1);
+    return ((size_t)(i[2] + 1) * (size_t)(g->n[1] + 2) + (size_t)(i[1] + 1)) * (size_t)(g->n[0] + 2) +
+           (size_t)(i[0] + 1);
 }
 
-static uint8_t smaller(uint8_t a, uint8_t b)
-{
-    return a < b ? a : b;
-}
+static uint8_t smaller(uint8_t a, uint8_t b) { return a < b ? a : b; }
 
 /* One of two sweeps: over the rows, each of which learns from the four before it and along itself. */
 static void sweep(const solid_grid *g, uint8_t *away, int way)
@@ -133,7 +128,8 @@ static void sweep(const solid_grid *g, uint8_t *away, int way)
         for (int32_t b = 0; b < g->n[1]; b++) {
             const int32_t first[3] = {0, way > 0 ? b : g->n[1] - 1 - b, way > 0 ? a : g->n[2] - 1 - a};
             uint8_t *restrict at = away + rimmed(g, first);
-            const uint8_t *before[4] = {at - way * layer - row, at - way * layer, at - way * layer + row, at - way * row};
+            const uint8_t *before[4] = {at - way * layer - row, at - way * layer, at - way * layer + row,
+                                        at - way * row};
             for (int k = 0; k < 4; k++) {
                 const uint8_t *restrict x = before[k];
                 for (int32_t i = 0; i < g->n[0]; i++)

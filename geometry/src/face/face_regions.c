@@ -7,8 +7,8 @@ static const double nose_margin_mm = 2, stable_height_mm = 60;
 
 const char *face_region_name(face_region r)
 {
-    static const char *const name[FACE_REGION_COUNT] = {"outside", "nose", "upper lip", "lower lip",
-                                                        "chin", "left cheek", "right cheek"};
+    static const char *const name[FACE_REGION_COUNT] = {"outside", "nose",       "upper lip",  "lower lip",
+                                                        "chin",    "left cheek", "right cheek"};
     return name[r];
 }
 
@@ -21,7 +21,8 @@ void face_map_free(face_map *m)
 }
 
 /* The first of the labels that is there, in the frame: left, posterior, up. */
-static bool place(const landmarks *l, const head_frame *f, const char *label, const char *instead, double out[3], err *e)
+static bool place(const landmarks *l, const head_frame *f, const char *label, const char *instead, double out[3],
+                  err *e)
 {
     const landmark *p = landmarks_find(l, label);
     if (!p && instead) p = landmarks_find(l, instead);
@@ -50,11 +51,18 @@ static bool find_borders(const landmarks *l, const head_frame *f, borders *b, er
         if (!place(l, f, "Stmi", NULL, lower, e)) return false;
         stm[2] = (stm[2] + lower[2]) / 2;
     }
-    *b = (borders){.nasion = n[2], .orbitale = orb[2], .subnasale = sn[2], .stomion = stm[2], .fold = fold[2],
-                   .menton = me[2], .back = orb[1] / 2, .middle = sn[0],
-                   .nose = {al[0][0] - nose_margin_mm, al[1][0] + nose_margin_mm}, .mouth = {ch[0][0], ch[1][0]}};
-    if (!(b->nasion > b->orbitale && b->orbitale > b->subnasale && b->subnasale > b->stomion &&
-          b->stomion > b->fold && b->fold > b->menton))
+    *b = (borders){.nasion = n[2],
+                   .orbitale = orb[2],
+                   .subnasale = sn[2],
+                   .stomion = stm[2],
+                   .fold = fold[2],
+                   .menton = me[2],
+                   .back = orb[1] / 2,
+                   .middle = sn[0],
+                   .nose = {al[0][0] - nose_margin_mm, al[1][0] + nose_margin_mm},
+                   .mouth = {ch[0][0], ch[1][0]}};
+    if (!(b->nasion > b->orbitale && b->orbitale > b->subnasale && b->subnasale > b->stomion && b->stomion > b->fold &&
+          b->fold > b->menton))
         return err_set(e, ERR_INPUT, "N, Or, Sn, stomion, B' and Me' are not in this order from above");
     if (!(b->mouth[0] < b->middle && b->middle < b->mouth[1] && b->nose[0] < b->middle && b->middle < b->nose[1]))
         return err_set(e, ERR_INPUT, "Sn does not lie between Ch_R and Ch_L and between Al_R and Al_L");

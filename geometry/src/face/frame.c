@@ -5,7 +5,8 @@
 static const double *need(const landmarks *l, const char *label, err *e)
 {
     const landmark *p = landmarks_find(l, label);
-    if (!p) err_set(e, ERR_INPUT, "landmark %s is missing: the Frankfort frame needs Po_L, Po_R and Or_L or Or_R", label);
+    if (!p)
+        err_set(e, ERR_INPUT, "landmark %s is missing: the Frankfort frame needs Po_L, Po_R and Or_L or Or_R", label);
     return p ? p->xyz : NULL;
 }
 
@@ -19,7 +20,8 @@ bool head_frame_from_landmarks(const landmarks *l, head_frame *out, err *e)
     double front[3];
     if (or_l && or_r)
         for (int c = 0; c < 3; c++) front[c] = (or_l->xyz[c] + or_r->xyz[c]) / 2;
-    else vec_copy(or_l ? or_l->xyz : or_r->xyz, front);
+    else
+        vec_copy(or_l ? or_l->xyz : or_r->xyz, front);
     for (int c = 0; c < 3; c++) f.origin[c] = (po_l[c] + po_r[c]) / 2;
     /* With four points the least-squares plane of a near-rectangle passes through both midpoints and averages the
      * two left-right lines; with three it is exact. */

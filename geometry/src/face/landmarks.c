@@ -117,13 +117,11 @@ bool landmarks_read(const char *path, landmarks *out, int32_t *skipped, err *e)
     } else if (file_name_ends(path, ".json")) {
         if (!read_markups(path, &l, &missing, e)) return false;
     } else {
-        return err_at(e, ERR_INPUT, path, 0, NULL,
-                      "unknown kind of landmark file; read are .mrk.json and .fcsv");
+        return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of landmark file; read are .mrk.json and .fcsv");
     }
     if (!l.count) {
         landmarks_free(&l);
-        return err_at(e, ERR_INPUT, path, 0, NULL, "holds no landmark with a defined position (%d skipped)",
-                      missing);
+        return err_at(e, ERR_INPUT, path, 0, NULL, "holds no landmark with a defined position (%d skipped)", missing);
     }
     *out = l;
     if (skipped) *skipped = missing;

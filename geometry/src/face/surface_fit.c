@@ -148,8 +148,7 @@ static bool iterate(fit_job *j, int32_t count, surface_fit *fit, err *e)
                            far_mm);
         if (!(length > still_mm) || fit->iterations == ITERATIONS_MAX) return true;
         if (!step(j->out, count, limit, &move, &length))
-            return err_set(e, ERR_GEOMETRY,
-                           "the faces cannot be aligned: the forehead alone leaves their motion open");
+            return err_set(e, ERR_GEOMETRY, "the faces cannot be aligned: the forehead alone leaves their motion open");
         j->back = rigid_compose(&move, &j->back);
     }
 }

@@ -35,7 +35,6 @@ void surface_stretch(const surface *rest, const surface *moved, double *out)
             area[v[k]] += weight;
         }
     }
-    for (int32_t v = 0; v < rest->vertex_count; v++)
-        out[v] = area[v] > 0 ? 100 * (out[v] / area[v] - 1) : (double)NAN;
+    for (int32_t v = 0; v < rest->vertex_count; v++) out[v] = area[v] > 0 ? 100 * (out[v] / area[v] - 1) : (double)NAN;
     free(area);
 }

@@ -87,15 +87,13 @@ static bool read_comment(char *text, const char *path, int line, int *system, co
     return true;
 }
 
-static bool read_row(char *text, const char *path, int line, int system, const columns *at, fcsv_row *row,
-                     err *e)
+static bool read_row(char *text, const char *path, int line, int system, const columns *at, fcsv_row *row, err *e)
 {
     char *field[MAX_FIELDS];
     int n = split(text, field);
     if (system < 0)
-        return err_at(
-            e, ERR_INPUT, path, line, NULL,
-            "a point before any line \"# CoordinateSystem = LPS\" (or RAS): add the line that is true");
+        return err_at(e, ERR_INPUT, path, line, NULL,
+                      "a point before any line \"# CoordinateSystem = LPS\" (or RAS): add the line that is true");
     if (n <= at->x || n <= at->y || n <= at->z || n <= at->label)
         return err_at(e, ERR_INPUT, path, line, NULL, "has %d columns: too few for x, y, z and label", n);
     /* Slicer 5 appends two columns to the 14 named ones: the status of the position, and who made it. */
@@ -106,16 +104,14 @@ static bool read_row(char *text, const char *path, int line, int system, const c
     row->defined = value == POSITION_DEFINED;
     row->line = line;
     const char *label = trim(field[at->label]);
-    if (strlen(label) >= sizeof row->label)
-        return err_at(e, ERR_INPUT, path, line, NULL, "the label is too long");
+    if (strlen(label) >= sizeof row->label) return err_at(e, ERR_INPUT, path, line, NULL, "the label is too long");
     memcpy(row->label, label, strlen(label) + 1);
     if (!row->defined) return true;
     const int column[3] = {at->x, at->y, at->z};
     for (int c = 0; c < 3; c++)
         if (!read_number(field[column[c]], row->xyz + c))
-            return err_at(e, ERR_INPUT, path, line, NULL,
-                          "the landmark \"%s\" has \"%.40s\" for %c, must be a number", label,
-                          field[column[c]], 'x' + c);
+            return err_at(e, ERR_INPUT, path, line, NULL, "the landmark \"%s\" has \"%.40s\" for %c, must be a number",
+                          label, field[column[c]], 'x' + c);
     if (system == 0) {
         row->xyz[0] = -row->xyz[0];
         row->xyz[1] = -row->xyz[1];

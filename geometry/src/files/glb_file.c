@@ -51,8 +51,9 @@ static int add_triangles(builder *b, const surface *s)
 {
     size_t count = 3 * (size_t)s->triangle_count;
     memcpy(add_block(b, 4 * count, INDEX_BUFFER), s->tri, 4 * count);
-    json_array_append_new(b->accessors, json_pack("{si si sI ss}", "bufferView", (int)json_array_size(b->views) - 1,
-                                                  "componentType", UINT32, "count", (json_int_t)count, "type", "SCALAR"));
+    json_array_append_new(b->accessors,
+                          json_pack("{si si sI ss}", "bufferView", (int)json_array_size(b->views) - 1, "componentType",
+                                    UINT32, "count", (json_int_t)count, "type", "SCALAR"));
     return (int)json_array_size(b->accessors) - 1;
 }
 
@@ -105,8 +106,8 @@ static json_t *add_mesh(builder *b, const glb_shape *s, int material)
     json_t *attribute = json_pack("{si si}", "POSITION", add_vectors(b, s->rest->xyz, s->rest->vertex_count, true),
                                   "NORMAL", add_vectors(b, normals, s->rest->vertex_count, false));
     if (s->rest->rgb) json_object_set_new(attribute, "COLOR_0", json_integer(add_colours(b, s->rest)));
-    json_t *part = json_pack("{so si si}", "attributes", attribute, "indices", add_triangles(b, s->rest), "material",
-                             material);
+    json_t *part =
+        json_pack("{so si si}", "attributes", attribute, "indices", add_triangles(b, s->rest), "material", material);
     json_t *mesh = json_pack("{ss}", "name", s->name);
     if (s->planned) {
         json_object_set_new(part, "targets", json_pack("[o]", add_target(b, s, normals)));

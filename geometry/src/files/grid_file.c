@@ -3,8 +3,8 @@
 #include "geometry/src/files/vtk_xml.h"
 #include "geometry/write_whole.h"
 
-bool grid_file_write(const int32_t count[3], const double origin[3], const double spacing[3],
-                     const point_array *arrays, int array_count, const char *path, err *e)
+bool grid_file_write(const int32_t count[3], const double origin[3], const double spacing[3], const point_array *arrays,
+                     int array_count, const char *path, err *e)
 {
     if (!file_name_ends(path, ".vti"))
         return err_at(e, ERR_USAGE, path, 0, NULL, "unknown kind of file for a grid; written is .vti");

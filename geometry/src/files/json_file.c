@@ -34,8 +34,7 @@ bool json_file_parse(const char *text, size_t size, const char *path, json_file 
     json_error_t why;
     json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &why);
     if (!root)
-        return err_at(e, ERR_INPUT, path, why.line, NULL, "not valid JSON: %s (column %d)", why.text,
-                      why.column);
+        return err_at(e, ERR_INPUT, path, why.line, NULL, "not valid JSON: %s (column %d)", why.text, why.column);
     *out = (json_file){.path = mem_text(path), .text = mem_alloc(size + 1, 1), .root = root};
     memcpy(out->text, text, size);
     return true;
@@ -49,8 +48,8 @@ bool json_file_read(const char *path, json_file *out, err *e)
         return err_at(e, ERR_INPUT, path, 0, NULL, "is %s, not a file",
                       S_ISDIR(info.st_mode) ? "a folder" : "a device");
     if (info.st_size > MAX_BYTES)
-        return err_at(e, ERR_INPUT, path, 0, NULL, "has %lld bytes; at most %d are read",
-                      (long long)info.st_size, MAX_BYTES);
+        return err_at(e, ERR_INPUT, path, 0, NULL, "has %lld bytes; at most %d are read", (long long)info.st_size,
+                      MAX_BYTES);
     FILE *in = fopen(path, "rb");
     if (!in) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
     size_t want = (size_t)info.st_size;
@@ -63,10 +62,7 @@ bool json_file_read(const char *path, json_file *out, err *e)
     return ok;
 }
 
-static const char *skip_blank(const char *p)
-{
-    return p + strspn(p, " \t\r\n");
-}
+static const char *skip_blank(const char *p) { return p + strspn(p, " \t\r\n"); }
 
 static const char *skip_string(const char *p) /* at the opening quote */
 {

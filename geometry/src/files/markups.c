@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SCHEMA                                                                                               \
-    "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"      \
+#define SCHEMA                                                                                                         \
+    "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"                \
     "markups-schema-v1.0.3.json#"
 
 static const json_t *markup_at(const json_file *f, size_t index)
@@ -54,8 +54,7 @@ bool markups_check(const json_file *f, size_t index, const char *type, bool *ras
     const char *axes = system ? json_string_value(system) : "LPS"; /* the schema's default */
     snprintf(pointer, sizeof pointer, "/markups/%zu/coordinateSystem", index);
     if (!axes || (strcmp(axes, "LPS") && strcmp(axes, "RAS")))
-        return json_file_refuse(f, pointer, e, "must be \"LPS\" or \"RAS\", is \"%s\"",
-                                axes ? axes : "no text");
+        return json_file_refuse(f, pointer, e, "must be \"LPS\" or \"RAS\", is \"%s\"", axes ? axes : "no text");
     *ras = !strcmp(axes, "RAS");
     return true;
 }
@@ -78,8 +77,7 @@ bool markups_point(const json_file *f, size_t index, size_t k, bool ras, bool *d
     *label = name ? json_string_value(name) : "";
     *defined = placed && !strcmp(placed, "defined");
     if (!placed || (!*defined && strcmp(placed, "undefined") && strcmp(placed, "preview")))
-        return json_file_refuse(f, pointer, e,
-                                "positionStatus must be \"defined\", \"undefined\" or \"preview\"");
+        return json_file_refuse(f, pointer, e, "positionStatus must be \"defined\", \"undefined\" or \"preview\"");
     if (!*defined) return true;
     const json_t *position = json_object_get(p, "position");
     if (!position) return json_file_refuse(f, pointer, e, "the point \"%s\" has no position", *label);
@@ -102,8 +100,8 @@ json_t *markups_document(json_t **list)
 json_t *markups_new(const char *type, json_t **points)
 {
     *points = json_array();
-    return json_pack("{s:s, s:s, s:s, s:b, s:s, s:o}", "type", type, "coordinateSystem", "LPS",
-                     "coordinateUnits", "mm", "locked", 0, "labelFormat", "%N-%d", "controlPoints", *points);
+    return json_pack("{s:s, s:s, s:s, s:b, s:s, s:o}", "type", type, "coordinateSystem", "LPS", "coordinateUnits", "mm",
+                     "locked", 0, "labelFormat", "%N-%d", "controlPoints", *points);
 }
 
 void markups_add_point(json_t *points, const char *label, const double xyz[3])
@@ -111,9 +109,9 @@ void markups_add_point(json_t *points, const char *label, const double xyz[3])
     char id[24];
     snprintf(id, sizeof id, "%zu", json_array_size(points) + 1);
     /* orientation: the identity of RAS. Some releases take a point without a status as not placed. */
-    json_t *p = json_pack("{s:s, s:s, s:s, s:s, s:[fff], s:[fffffffff], s:b, s:b, s:b, s:s}", "id", id,
-                          "label", label, "description", "", "associatedNodeID", "", "position", xyz[0],
-                          xyz[1], xyz[2], "orientation", -1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0,
-                          "selected", 1, "locked", 0, "visibility", 1, "positionStatus", "defined");
+    json_t *p = json_pack("{s:s, s:s, s:s, s:s, s:[fff], s:[fffffffff], s:b, s:b, s:b, s:s}", "id", id, "label", label,
+                          "description", "", "associatedNodeID", "", "position", xyz[0], xyz[1], xyz[2], "orientation",
+                          -1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, "selected", 1, "locked", 0, "visibility", 1,
+                          "positionStatus", "defined");
     json_array_append_new(points, p);
 }

@@ -24,8 +24,7 @@ static bool find_format(const char *path, mesh_format *format, err *e)
             *format = known[i].format;
             return true;
         }
-    return err_at(e, ERR_INPUT, path, 0, NULL,
-                  "unknown kind of mesh file; read are .ply .off .stl .obj .gltf .glb");
+    return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of mesh file; read are .ply .off .stl .obj .gltf .glb");
 }
 
 /* "SPACE=LPS" as 3D Slicer writes it: in the 80 bytes or the first line of an STL, in comments of PLY and
@@ -65,8 +64,7 @@ static bool find_space_tag(const char *path, mesh_format format, bool *tagged, b
 }
 
 /* Splits into triangles; a triangle that names a vertex twice is dropped. */
-static bool surface_from_polygons(const polygons *p, const char *path, surface *out, mesh_file_report *r,
-                                  err *e)
+static bool surface_from_polygons(const polygons *p, const char *path, surface *out, mesh_file_report *r, err *e)
 {
     int64_t triangles = 0;
     for (int64_t f = 0; f < p->polygon_count; f++) {
@@ -78,13 +76,12 @@ static bool surface_from_polygons(const polygons *p, const char *path, surface *
                               (long long)f, (long long)p->corner[k], (long long)p->point_count);
     }
     if (p->point_count > INT32_MAX / 3 || triangles > INT32_MAX / 3)
-        return err_at(e, ERR_INPUT, path, 0, NULL,
-                      "too large: %lld vertices, %lld triangles; at most %d are read",
+        return err_at(e, ERR_INPUT, path, 0, NULL, "too large: %lld vertices, %lld triangles; at most %d are read",
                       (long long)p->point_count, (long long)triangles, INT32_MAX / 3);
     for (int64_t i = 0; i < 3 * p->point_count; i++)
         if (!isfinite(p->xyz[i]))
-            return err_at(e, ERR_INPUT, path, 0, NULL,
-                          "vertex %lld has a coordinate that is not a finite number", (long long)(i / 3));
+            return err_at(e, ERR_INPUT, path, 0, NULL, "vertex %lld has a coordinate that is not a finite number",
+                          (long long)(i / 3));
     surface s = surface_new((int32_t)p->point_count, (int32_t)triangles);
     if (p->point_count) memcpy(s.xyz, p->xyz, 3 * (size_t)p->point_count * sizeof *s.xyz);
     if (p->rgb) s.rgb = COPY_ARRAY(uint8_t, p->rgb, 3 * (size_t)p->point_count);

@@ -4,23 +4,18 @@
 #include "geometry/write_whole.h"
 #include <string.h>
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
-               "the binary writers store the machine's own byte order");
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the binary writers store the machine's own byte order");
 
-static void put(FILE *to, const void *bytes, size_t size)
-{
-    (void)!fwrite(bytes, 1, size, to);
-}
+static void put(FILE *to, const void *bytes, size_t size) { (void)!fwrite(bytes, 1, size, to); }
 
 static void write_ply(const surface *s, FILE *to)
 {
-    fprintf(
-        to,
-        "ply\nformat binary_little_endian 1.0\ncomment gnathos " GNATHOS_VERSION
-        "\ncomment SPACE=LPS\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n%s"
-        "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
-        s->vertex_count, s->rgb ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
-        s->triangle_count);
+    fprintf(to,
+            "ply\nformat binary_little_endian 1.0\ncomment gnathos " GNATHOS_VERSION
+            "\ncomment SPACE=LPS\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n%s"
+            "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
+            s->vertex_count, s->rgb ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
+            s->triangle_count);
     for (int32_t v = 0; v < s->vertex_count; v++) {
         put(to, s->xyz + 3 * (size_t)v, 3 * sizeof *s->xyz);
         if (s->rgb) put(to, s->rgb + 3 * (size_t)v, 3);
@@ -33,8 +28,7 @@ static void write_ply(const surface *s, FILE *to)
 
 static void write_stl(const surface *s, FILE *to)
 {
-    char head[80] =
-        "gnathos " GNATHOS_VERSION ". SPACE=LPS"; /* must not begin with "solid", which means text */
+    char head[80] = "gnathos " GNATHOS_VERSION ". SPACE=LPS"; /* must not begin with "solid", which means text */
     uint32_t count = (uint32_t)s->triangle_count;
     put(to, head, sizeof head);
     put(to, &count, sizeof count);

@@ -14,8 +14,7 @@
 typedef double matrix4[4][4];
 
 /* The matrix `key` in RAS; the identity if the file has none. */
-static bool read_matrix(const json_file *f, size_t index, const char *key, bool ras, matrix4 out,
-                        bool *present, err *e)
+static bool read_matrix(const json_file *f, size_t index, const char *key, bool ras, matrix4 out, bool *present, err *e)
 {
     const json_t *list = json_object_get(json_array_get(json_object_get(f->root, "markups"), index), key);
     char pointer[64];
@@ -33,8 +32,7 @@ static bool read_matrix(const json_file *f, size_t index, const char *key, bool 
     return true;
 }
 
-static bool three_point_base(const json_file *f, size_t index, double p[][3], int defined, matrix4 base,
-                             err *e)
+static bool three_point_base(const json_file *f, size_t index, double p[][3], int defined, matrix4 base, err *e)
 {
     char pointer[64];
     snprintf(pointer, sizeof pointer, "/markups/%zu/controlPoints", index);
@@ -83,12 +81,10 @@ static bool read_plane(const json_file *f, size_t index, cut_plane *out, err *e)
         if (!three_point_base(f, index, p, defined, base, e)) return false;
     } else if (type && (!strcmp(type, "PointNormal") || !strcmp(type, "pointNormal"))) {
         if (!have_base || !defined)
-            return json_file_refuse(f, pointer, e,
-                                    "a plane of this type needs a defined point and baseToNode");
+            return json_file_refuse(f, pointer, e, "a plane of this type needs a defined point and baseToNode");
         for (int i = 0; i < 3; i++) base[i][3] = p[0][i];
     } else {
-        return json_file_refuse(f, pointer, e, "must be \"3Points\" or \"PointNormal\", is \"%s\"",
-                                type ? type : "");
+        return json_file_refuse(f, pointer, e, "must be \"3Points\" or \"PointNormal\", is \"%s\"", type ? type : "");
     }
     double normal[3] = {0}, point[3];
     for (int i = 0; i < 3; i++) {
@@ -98,8 +94,7 @@ static bool read_plane(const json_file *f, size_t index, cut_plane *out, err *e)
             point[i] += base[i][k] * object[k][3];
         }
     }
-    if (!(vec_normalize(normal) > 1e-6))
-        return json_file_refuse(f, pointer, e, "the plane's matrices give no normal");
+    if (!(vec_normalize(normal) > 1e-6)) return json_file_refuse(f, pointer, e, "the plane's matrices give no normal");
     for (int i = 0; i < 3; i++) {
         out->normal[i] = i < 2 ? -normal[i] : normal[i];
         out->point[i] = i < 2 ? -point[i] : point[i];
@@ -145,8 +140,7 @@ bool planes_read(const char *path, cut_plane **out, int *count, err *e)
         good = read_plane(&f, i, planes + i, e) && read_label(&f, i, n, planes + i, e);
         for (size_t k = 0; good && k < i; k++)
             if (!strcmp(planes[k].label, planes[i].label))
-                good =
-                    json_file_refuse(&f, "/markups", e, "the plane \"%s\" is there twice", planes[i].label);
+                good = json_file_refuse(&f, "/markups", e, "the plane \"%s\" is there twice", planes[i].label);
     }
     json_file_free(&f);
     if (!good) {

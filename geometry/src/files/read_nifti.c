@@ -6,31 +6,22 @@
 static double number_at(const nifti_image *n, int64_t i)
 {
     switch (n->datatype) {
-    case DT_UINT8:
-        return ((const uint8_t *)n->data)[i];
-    case DT_INT8:
-        return ((const int8_t *)n->data)[i];
-    case DT_UINT16:
-        return ((const uint16_t *)n->data)[i];
-    case DT_INT16:
-        return ((const int16_t *)n->data)[i];
-    case DT_UINT32:
-        return ((const uint32_t *)n->data)[i];
-    case DT_INT32:
-        return ((const int32_t *)n->data)[i];
-    case DT_FLOAT32:
-        return (double)((const float *)n->data)[i];
-    case DT_FLOAT64:
-        return ((const double *)n->data)[i];
-    default:
-        return (double)NAN; /* not reached: known_type */
+    case DT_UINT8: return ((const uint8_t *)n->data)[i];
+    case DT_INT8: return ((const int8_t *)n->data)[i];
+    case DT_UINT16: return ((const uint16_t *)n->data)[i];
+    case DT_INT16: return ((const int16_t *)n->data)[i];
+    case DT_UINT32: return ((const uint32_t *)n->data)[i];
+    case DT_INT32: return ((const int32_t *)n->data)[i];
+    case DT_FLOAT32: return (double)((const float *)n->data)[i];
+    case DT_FLOAT64: return ((const double *)n->data)[i];
+    default: return (double)NAN; /* not reached: known_type */
     }
 }
 
 static bool known_type(int type)
 {
-    return type == DT_UINT8 || type == DT_INT8 || type == DT_UINT16 || type == DT_INT16 ||
-           type == DT_UINT32 || type == DT_INT32 || type == DT_FLOAT32 || type == DT_FLOAT64;
+    return type == DT_UINT8 || type == DT_INT8 || type == DT_UINT16 || type == DT_INT16 || type == DT_UINT32 ||
+           type == DT_INT32 || type == DT_FLOAT32 || type == DT_FLOAT64;
 }
 
 static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e)

@@ -43,8 +43,7 @@ static bool find_space(const Nrrd *n, const char *path, double sign[2], err *e)
 }
 
 /* The number in key SegmentN_what; *found false if there is no such key. */
-static bool read_key(const Nrrd *n, const char *path, int number, const char *what, int32_t *out, bool *found,
-                     err *e)
+static bool read_key(const Nrrd *n, const char *path, int number, const char *what, int32_t *out, bool *found, err *e)
 {
     char key[64], *end;
     snprintf(key, sizeof key, "Segment%d_%s", number, what);
@@ -53,8 +52,7 @@ static bool read_key(const Nrrd *n, const char *path, int number, const char *wh
     if (!text) return true;
     long value = strtol(text, &end, 10);
     bool good = end != text && !*end && value >= 0 && value <= INT16_MAX;
-    if (!good)
-        err_at(e, ERR_INPUT, path, 0, key, "must be a whole number from 0 to %d, is \"%s\"", INT16_MAX, text);
+    if (!good) err_at(e, ERR_INPUT, path, 0, key, "must be a whole number from 0 to %d, is \"%s\"", INT16_MAX, text);
     free(text);
     *out = (int32_t)value;
     return good;
@@ -76,8 +74,7 @@ static bool read_segments(const Nrrd *n, const char *path, volume *v, err *e)
             return err_at(e, ERR_INPUT, path, 0, key, "must have 1 to %zu bytes", sizeof segment.name - 1);
         if (!read_key(n, path, i, "LabelValue", &segment.label, &found, e)) return false;
         if (!found)
-            return err_at(e, ERR_INPUT, path, 0, key,
-                          "has no label value; save it again with Slicer 4.11 or newer");
+            return err_at(e, ERR_INPUT, path, 0, key, "has no label value; save it again with Slicer 4.11 or newer");
         if (!read_key(n, path, i, "Layer", &segment.layer, &found, e)) return false;
         if (segment.layer >= v->layers)
             return err_at(e, ERR_INPUT, path, 0, key, "is in layer %d of %d", segment.layer, v->layers);
@@ -91,15 +88,14 @@ static bool from_nrrd(const Nrrd *n, const char *path, volume *v, err *e)
     unsigned first = n->dim == 4 ? 1 : 0; /* overlapping segments: layers come first, without a direction */
     double sign[2];
     if (n->dim != 3 && (n->dim != 4 || n->axis[0].kind != nrrdKindList))
-        return err_at(e, ERR_INPUT, path, 0, "dimension",
-                      "%u-dimensional data that are not layers of a segmentation", n->dim);
+        return err_at(e, ERR_INPUT, path, 0, "dimension", "%u-dimensional data that are not layers of a segmentation",
+                      n->dim);
     if (n->type == nrrdTypeBlock) return err_at(e, ERR_INPUT, path, 0, "type", "blocks are not read");
     if (!find_space(n, path, sign, e)) return false;
     for (unsigned a = 0; a < 3; a++)
         for (unsigned c = 0; c < 3; c++) {
             double step = n->axis[first + a].spaceDirection[c], origin = n->spaceOrigin[c];
-            if (!isfinite(step))
-                return err_at(e, ERR_INPUT, path, 0, "space directions", "missing for axis %u", a);
+            if (!isfinite(step)) return err_at(e, ERR_INPUT, path, 0, "space directions", "missing for axis %u", a);
             if (!isfinite(origin)) return err_at(e, ERR_INPUT, path, 0, "space origin", "missing");
             v->step[a][c] = c < 2 ? sign[c] * step : step;
             v->origin[c] = c < 2 ? sign[c] * origin : origin;
@@ -114,8 +110,8 @@ static bool from_nrrd(const Nrrd *n, const char *path, volume *v, err *e)
         for (int64_t k = 0; k < layers; k++) {
             double number = look(n->data, (size_t)(i * layers + k));
             if (!read_volume_round(number, v->value + k * voxels + i))
-                return err_at(e, ERR_INPUT, path, 0, NULL,
-                              "voxel %lld holds %g, which does not fit into 16 bits", (long long)i, number);
+                return err_at(e, ERR_INPUT, path, 0, NULL, "voxel %lld holds %g, which does not fit into 16 bits",
+                              (long long)i, number);
         }
     return read_segments(n, path, v, e);
 }

@@ -22,8 +22,7 @@ typedef struct placed { /* matrix [3][4] row-major, from a node to the scene */
 
 static placed place_in(const placed *parent, const struct aiMatrix4x4 *a)
 {
-    const ai_real child[12] = {a->a1, a->a2, a->a3, a->a4, a->b1, a->b2,
-                               a->b3, a->b4, a->c1, a->c2, a->c3, a->c4};
+    const ai_real child[12] = {a->a1, a->a2, a->a3, a->a4, a->b1, a->b2, a->b3, a->b4, a->c1, a->c2, a->c3, a->c4};
     placed out;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
@@ -57,8 +56,7 @@ static void append_mesh(const struct aiMesh *mesh, const placed *at, polygons *p
     p->point_count += mesh->mNumVertices;
     int64_t more = 0;
     for (unsigned f = 0; f < mesh->mNumFaces; f++)
-        if (mesh->mFaces[f].mNumIndices >= 3)
-            more += mesh->mFaces[f].mNumIndices; /* else a point or a line */
+        if (mesh->mFaces[f].mNumIndices >= 3) more += mesh->mFaces[f].mNumIndices; /* else a point or a line */
     p->first = GROW_ARRAY(int64_t, p->first, (size_t)polygon_count + mesh->mNumFaces + 1);
     p->corner = GROW_ARRAY(int64_t, p->corner, (size_t)(corners + more));
     bool turn = mirrors(at); /* a mirrored node shows its triangles from the other side */
@@ -72,8 +70,7 @@ static void append_mesh(const struct aiMesh *mesh, const placed *at, polygons *p
     p->polygon_count = polygon_count;
 }
 
-static void append_node(const struct aiScene *scene, const struct aiNode *node, const placed *parent,
-                        polygons *p)
+static void append_node(const struct aiScene *scene, const struct aiNode *node, const placed *parent, polygons *p)
 {
     placed at = place_in(parent, &node->mTransformation);
     for (unsigned i = 0; i < node->mNumMeshes; i++) append_mesh(scene->mMeshes[node->mMeshes[i]], &at, p);
@@ -87,8 +84,7 @@ bool read_mesh_scene(const char *path, polygons *out, err *e)
         if (scene) aiReleaseImport(scene);
         return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read as a mesh: %s", aiGetErrorString());
     }
-    polygons p = {
-        .xyz = NEW_ARRAY(double, 0), .first = NEW_ARRAY(int64_t, 1), .corner = NEW_ARRAY(int64_t, 0)};
+    polygons p = {.xyz = NEW_ARRAY(double, 0), .first = NEW_ARRAY(int64_t, 1), .corner = NEW_ARRAY(int64_t, 0)};
     append_node(scene, scene->mRootNode, &(placed){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, &p);
     aiReleaseImport(scene);
     *out = p;

@@ -7,7 +7,6 @@ bool read_volume_nrrd(const char *path, volume *out, err *e) MUST_CHECK;  /* tee
 bool read_volume_nifti(const char *path, volume *out, err *e) MUST_CHECK; /* libnifti2 */
 
 /* The three sizes in range and few enough voxels; allocates value. */
-bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layers, volume *out,
-                          err *e) MUST_CHECK;
+bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layers, volume *out, err *e) MUST_CHECK;
 /* Rounds a stored number to 16 bits; false if it does not fit or is not finite. */
 bool read_volume_round(double number, int16_t *out);

@@ -28,11 +28,9 @@ typedef struct stored {
     double parameter[MAX_NUMBERS], fixed[MAX_NUMBERS];
 } stored;
 
-static bool read_numbers(const char *text, const char *path, int line, const char *key, double *out,
-                         int *count, err *e)
+static bool read_numbers(const char *text, const char *path, int line, const char *key, double *out, int *count, err *e)
 {
-    if (*count >= 0)
-        return err_at(e, ERR_INPUT, path, line, key, "is there twice; one transform per file is read");
+    if (*count >= 0) return err_at(e, ERR_INPUT, path, line, key, "is there twice; one transform per file is read");
     int n = 0;
     for (;;) {
         text += strspn(text, " \t\r\n");
@@ -51,8 +49,7 @@ static bool read_numbers(const char *text, const char *path, int line, const cha
 
 static bool read_type(char *text, const char *path, int line, stored *s, err *e)
 {
-    if (s->type >= 0)
-        return err_at(e, ERR_INPUT, path, line, "Transform", "a second transform; one per file is read");
+    if (s->type >= 0) return err_at(e, ERR_INPUT, path, line, "Transform", "a second transform; one per file is read");
     text[strcspn(text, " \t\r\n")] = 0;
     for (int i = 0; i < KNOWN; i++) {
         size_t n = strlen(known[i].name);
@@ -62,9 +59,8 @@ static bool read_type(char *text, const char *path, int line, stored *s, err *e)
         s->type_line = line;
         return true;
     }
-    return err_at(
-        e, ERR_INPUT, path, line, "Transform",
-        "%s is not read; harden it into a rigid AffineTransform_double_3_3 and save it as Text (.tfm)", text);
+    return err_at(e, ERR_INPUT, path, line, "Transform",
+                  "%s is not read; harden it into a rigid AffineTransform_double_3_3 and save it as Text (.tfm)", text);
 }
 
 static bool read_line(char *text, const char *path, int line, stored *s, err *e)
@@ -81,8 +77,7 @@ static bool read_line(char *text, const char *path, int line, stored *s, err *e)
         s->parameter_line = line;
         return read_numbers(value, path, line, text, s->parameter, &s->parameter_count, e);
     }
-    if (!strcmp(text, "FixedParameters"))
-        return read_numbers(value, path, line, text, s->fixed, &s->fixed_count, e);
+    if (!strcmp(text, "FixedParameters")) return read_numbers(value, path, line, text, s->fixed, &s->fixed_count, e);
     return err_at(e, ERR_INPUT, path, line, NULL, "unknown entry \"%.40s\"", text);
 }
 
@@ -101,8 +96,7 @@ static void euler_matrix(const double angle[3], bool zyx, double m[9])
         c[i] = cos(angle[i]);
         s[i] = sin(angle[i]);
     }
-    const double x[9] = {1, 0, 0, 0, c[0], -s[0], 0, s[0], c[0]},
-                 y[9] = {c[1], 0, s[1], 0, 1, 0, -s[1], 0, c[1]},
+    const double x[9] = {1, 0, 0, 0, c[0], -s[0], 0, s[0], c[0]}, y[9] = {c[1], 0, s[1], 0, 1, 0, -s[1], 0, c[1]},
                  z[9] = {c[2], -s[2], 0, s[2], c[2], 0, 0, 0, 1};
     multiply(z, zyx ? y : x, left);
     multiply(left, zyx ? x : y, m);
@@ -133,13 +127,11 @@ static bool stored_transform(const stored *s, const char *path, rigid *out, err 
         s->fixed_count > known[s->type].fixed_most)
         return err_at(e, ERR_INPUT, path, s->parameter_line, NULL,
                       "%s has %d parameters and %d fixed ones, must be %d and %d", known[s->type].name,
-                      s->parameter_count, s->fixed_count, known[s->type].parameters,
-                      known[s->type].fixed_least);
+                      s->parameter_count, s->fixed_count, known[s->type].parameters, known[s->type].fixed_least);
     double m[9], moved[3], matrix[16] = {0};
     const double *t = s->parameter + (known[s->type].kind == KIND_AFFINE ? 9 : 3);
     if (known[s->type].kind == KIND_AFFINE) memcpy(m, s->parameter, sizeof m);
-    if (known[s->type].kind == KIND_EULER)
-        euler_matrix(s->parameter, s->fixed_count == 4 && s->fixed[3] != 0, m);
+    if (known[s->type].kind == KIND_EULER) euler_matrix(s->parameter, s->fixed_count == 4 && s->fixed[3] != 0, m);
     if (known[s->type].kind == KIND_VERSOR && !versor_matrix(s->parameter, m))
         return err_at(e, ERR_INPUT, path, s->parameter_line, NULL, "the versor is longer than 1");
     mat_apply(m, s->fixed, moved);
@@ -184,13 +176,11 @@ bool transform_read(const char *path, rigid *out, err *e)
 
 bool transform_write(const rigid *motion, const char *path, err *e)
 {
-    if (!file_name_ends(path, ".tfm"))
-        return err_at(e, ERR_USAGE, path, 0, NULL, "transforms are written as .tfm");
+    if (!file_name_ends(path, ".tfm")) return err_at(e, ERR_USAGE, path, 0, NULL, "transforms are written as .tfm");
     rigid a = rigid_inverse(motion);
     whole_file w;
     if (!whole_file_open(path, &w, e)) return false;
-    fprintf(w.stream,
-            "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\nParameters:");
+    fprintf(w.stream, "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\nParameters:");
     for (int i = 0; i < 9; i++) fprintf(w.stream, " %.17g", a.r[i]);
     for (int i = 0; i < 3; i++) fprintf(w.stream, " %.17g", a.t[i]);
     fprintf(w.stream, "\nFixedParameters: 0 0 0\n");

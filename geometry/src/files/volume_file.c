@@ -23,9 +23,8 @@ bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layer
     for (int a = 0; a < 3; a++) {
         if (size[a] < 1 || size[a] > most_voxels / voxels)
             return err_at(e, ERR_INPUT, path, 0, NULL,
-                          "has %lld x %lld x %lld voxels in %lld layers; 1 to %lld are read",
-                          (long long)size[0], (long long)size[1], (long long)size[2], (long long)layers,
-                          (long long)most_voxels);
+                          "has %lld x %lld x %lld voxels in %lld layers; 1 to %lld are read", (long long)size[0],
+                          (long long)size[1], (long long)size[2], (long long)layers, (long long)most_voxels);
         voxels *= size[a];
         out->size[a] = (int32_t)size[a];
     }
@@ -44,45 +43,38 @@ bool read_volume_round(double number, int16_t *out)
 
 static bool check_grid(const volume *v, const char *path, err *e)
 {
-    const double least_mm = 1e-3, most_mm = 100,
-                 most_cosine = 1e-3; /* 0.06 degrees: headers round their numbers */
+    const double least_mm = 1e-3, most_mm = 100, most_cosine = 1e-3; /* 0.06 degrees: headers round their numbers */
     for (int a = 0; a < 3; a++) {
         double length = vec_norm(v->step[a]);
-        if (!isfinite(v->origin[a]))
-            return err_at(e, ERR_INPUT, path, 0, NULL, "the place of voxel 0 is not finite");
+        if (!isfinite(v->origin[a])) return err_at(e, ERR_INPUT, path, 0, NULL, "the place of voxel 0 is not finite");
         if (!(length >= least_mm && length <= most_mm))
-            return err_at(e, ERR_INPUT, path, 0, NULL,
-                          "voxels along axis %d are %g mm apart, must be %g to %g", a, length, least_mm,
-                          most_mm);
+            return err_at(e, ERR_INPUT, path, 0, NULL, "voxels along axis %d are %g mm apart, must be %g to %g", a,
+                          length, least_mm, most_mm);
     }
     for (int a = 0; a < 3; a++) {
         const double *x = v->step[a], *y = v->step[(a + 1) % 3];
         double cosine = vec_dot(x, y) / (vec_norm(x) * vec_norm(y));
         if (!(fabs(cosine) <= most_cosine))
-            return err_at(
-                e, ERR_INPUT, path, 0, NULL,
-                "axes %d and %d are not at right angles (cosine %.4f; gantry tilt?): resample the volume", a,
-                (a + 1) % 3, cosine);
+            return err_at(e, ERR_INPUT, path, 0, NULL,
+                          "axes %d and %d are not at right angles (cosine %.4f; gantry tilt?): resample the volume", a,
+                          (a + 1) % 3, cosine);
     }
     return true;
 }
 
 bool volume_read(const char *path, volume *out, err *e)
 {
-    bool nrrd = file_name_ends(path, ".nrrd"),
-         nifti = file_name_ends(path, ".nii") || file_name_ends(path, ".nii.gz");
+    bool nrrd = file_name_ends(path, ".nrrd"), nifti = file_name_ends(path, ".nii") || file_name_ends(path, ".nii.gz");
     struct stat info;
     volume v = {0};
     if (!nrrd && !nifti)
-        return err_at(
-            e, ERR_INPUT, path, 0, NULL,
-            "unknown kind of volume file; read are .nrrd, .seg.nrrd, .nii and .nii.gz (DICOM: convert with "
-            "dcm2niix)");
+        return err_at(e, ERR_INPUT, path, 0, NULL,
+                      "unknown kind of volume file; read are .nrrd, .seg.nrrd, .nii and .nii.gz (DICOM: convert with "
+                      "dcm2niix)");
     if (stat(path, &info)) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
     if (!S_ISREG(info.st_mode)) return err_at(e, ERR_INPUT, path, 0, NULL, "is not a regular file");
     if (!info.st_size) return err_at(e, ERR_INPUT, path, 0, NULL, "the file is empty");
-    if (!(nrrd ? read_volume_nrrd(path, &v, e) : read_volume_nifti(path, &v, e)) ||
-        !check_grid(&v, path, e)) {
+    if (!(nrrd ? read_volume_nrrd(path, &v, e) : read_volume_nifti(path, &v, e)) || !check_grid(&v, path, e)) {
         volume_free(&v);
         return false;
     }

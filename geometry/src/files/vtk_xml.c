@@ -5,11 +5,10 @@
 
 uint64_t vtk_announce(FILE *to, const char *type, const char *name, int components, uint64_t bytes, uint64_t offset)
 {
-    fprintf(
-        to,
-        "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
-        "\"/>\n",
-        type, name, components, offset);
+    fprintf(to,
+            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
+            "\"/>\n",
+            type, name, components, offset);
     return offset + 8 + bytes;
 }
 

@@ -17,8 +17,7 @@ static void write_header(const tetmesh *m, const point_array *arrays, int array_
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
             "<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">76 80 83 0</Array>\n"
-            "</FieldData>\n<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64
-            "\">\n<PointData%s>\n",
+            "</FieldData>\n<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64 "\">\n<PointData%s>\n",
             n, cells, vectors);
     offset = vtk_announce_arrays(to, arrays, array_count, n, offset);
     fprintf(to, "</PointData>\n<CellData Scalars=\"region\">\n");

@@ -124,8 +124,7 @@ bool whole_folder_open(const char *path, whole_folder *out, err *e)
     if (!*clean) {
         err_set(e, ERR_USAGE, "the name of the new folder is empty");
     } else if (occupied(clean) == 2) {
-        err_at(e, ERR_INPUT, clean, 0, NULL,
-               "exists and is not an empty folder; choose a new name or remove it");
+        err_at(e, ERR_INPUT, clean, 0, NULL, "exists and is not an empty folder; choose a new name or remove it");
     } else {
         temporary = temporary_name(clean);
         nftw(temporary, remove_entry, 8, FTW_DEPTH | FTW_PHYS);

@@ -82,8 +82,7 @@ static part_field smooth_part(const mask *m, double sigma)
     for (int32_t k = RADIUS; k < f.size[2] - RADIUS; k++)
         for (int32_t j = RADIUS; j < f.size[1] - RADIUS; j++)
             for (int32_t i = RADIUS; i < f.size[0] - RADIUS; i++) {
-                int64_t from =
-                    ((int64_t)(k + f.low[2]) * m->size[1] + (j + f.low[1])) * m->size[0] + (i + f.low[0]);
+                int64_t from = ((int64_t)(k + f.low[2]) * m->size[1] + (j + f.low[1])) * m->size[0] + (i + f.low[0]);
                 f.value[((int64_t)k * f.size[1] + j) * f.size[0] + i] = (float)m->on[from];
             }
     for (int axis = 0; axis < 3; axis++) {
@@ -185,9 +184,8 @@ static int32_t drop_specks(surface *s, double least_mm3)
     uint8_t *keep = NEW_ARRAY(uint8_t, s->triangle_count);
     for (int32_t t = 0; t < s->triangle_count; t++) {
         const int32_t *v = s->tri + 3 * (size_t)t;
-        mm3[component[t]] += vec_six_volume(s->xyz, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1],
-                                               s->xyz + 3 * (size_t)v[2]) /
-                                6;
+        mm3[component[t]] +=
+            vec_six_volume(s->xyz, s->xyz + 3 * (size_t)v[0], s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[2]) / 6;
     }
     for (int32_t k = 0; k < count; k++) dropped += fabs(mm3[k]) < least_mm3;
     for (int32_t t = 0; t < s->triangle_count; t++) keep[t] = fabs(mm3[component[t]]) >= least_mm3;

@@ -18,10 +18,7 @@ void mask_free(mask *m)
     *m = (mask){0};
 }
 
-int64_t mask_voxels(const mask *m)
-{
-    return (int64_t)m->size[0] * m->size[1] * m->size[2];
-}
+int64_t mask_voxels(const mask *m) { return (int64_t)m->size[0] * m->size[1] * m->size[2]; }
 
 int64_t mask_count(const mask *m)
 {
@@ -252,8 +249,7 @@ int64_t mask_contacts(const mask *a, const mask *b)
                 int64_t at = (k * ny + j) * nx + i;
                 const bool next[3] = {i + 1 < nx, j + 1 < ny, k + 1 < nz};
                 for (int c = 0; c < 3; c++)
-                    if (next[c])
-                        count += (a->on[at] && b->on[at + stride[c]]) || (b->on[at] && a->on[at + stride[c]]);
+                    if (next[c]) count += (a->on[at] && b->on[at + stride[c]]) || (b->on[at] && a->on[at + stride[c]]);
             }
     return count;
 }

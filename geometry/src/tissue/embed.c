@@ -63,8 +63,10 @@ static cubes sort_into_cubes(const tetmesh *m, double edge_mm)
                 for (int32_t j = from[1]; j <= to[1]; j++)
                     for (int32_t i = from[0]; i <= to[0]; i++) {
                         int64_t at = i + (int64_t)c.size[0] * (j + (int64_t)c.size[1] * k);
-                        if (pass) c.list[c.start[at]++] = t;
-                        else c.start[at]++;
+                        if (pass)
+                            c.list[c.start[at]++] = t;
+                        else
+                            c.start[at]++;
                     }
         }
         int64_t sum = 0;
@@ -76,8 +78,10 @@ static cubes sort_into_cubes(const tetmesh *m, double edge_mm)
                 c.start[at] = sum;
                 sum += here;
             }
-        if (pass) c.start[0] = 0;
-        else c.list = NEW_ARRAY(int32_t, sum);
+        if (pass)
+            c.start[0] = 0;
+        else
+            c.list = NEW_ARRAY(int32_t, sum);
     }
     return c;
 }
@@ -130,8 +134,7 @@ static double tet_distance2(const double *const x[4], const double p[3], const d
     if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0 && w[3] >= 0) return 0;
     double best = HUGE_VAL;
     for (int k = 0; k < 4; k++)
-        if (w[k] < 0)
-            best = fmin(best, triangle_distance2(x[tet_face[k][0]], x[tet_face[k][1]], x[tet_face[k][2]], p));
+        if (w[k] < 0) best = fmin(best, triangle_distance2(x[tet_face[k][0]], x[tet_face[k][1]], x[tet_face[k][2]], p));
     return best;
 }
 
@@ -163,7 +166,8 @@ static double search_ring(const search *s, int32_t point, double ring, int32_t *
                 for (int64_t n = s->c->start[at]; n < s->c->start[at + 1]; n++) {
                     int32_t t = s->c->list[n];
                     if (s->allowed && !s->allowed(point, t, s->context)) continue;
-                    const double *x[4] = {corner(s->m, t, 0), corner(s->m, t, 1), corner(s->m, t, 2), corner(s->m, t, 3)};
+                    const double *x[4] = {corner(s->m, t, 0), corner(s->m, t, 1), corner(s->m, t, 2),
+                                          corner(s->m, t, 3)};
                     double w[4];
                     barycentric(x, p, w);
                     double d = tet_distance2(x, p, w);
@@ -198,9 +202,8 @@ static void search_points(int64_t begin, int64_t end, void *context)
 embedding embed_points(const tetmesh *m, const double *xyz, int32_t count, double reach_mm, embed_allowed *allowed,
                        void *context)
 {
-    embedding out = {.point_count = count,
-                     .tet = NEW_ARRAY(int32_t, count),
-                     .weight = NEW_ARRAY(double, 4 * (size_t)count)};
+    embedding out = {
+        .point_count = count, .tet = NEW_ARRAY(int32_t, count), .weight = NEW_ARRAY(double, 4 * (size_t)count)};
     cubes c = sort_into_cubes(m, 4);
     search s = {m, &c, xyz, reach_mm, NEW_ARRAY(double, count), allowed, context, &out};
     parallel_for(count, 256, search_points, &s);
@@ -232,8 +235,7 @@ void embedding_apply(const embedding *e, const tetmesh *m, const double *u, cons
             double sum = xyz[3 * (size_t)i + c];
             if (e->tet[i] >= 0)
                 for (size_t k = 0; k < 4; k++)
-                    sum += e->weight[4 * (size_t)i + k] *
-                           u[3 * (size_t)m->tet[4 * (size_t)e->tet[i] + k] + c];
+                    sum += e->weight[4 * (size_t)i + k] * u[3 * (size_t)m->tet[4 * (size_t)e->tet[i] + k] + c];
             out[3 * (size_t)i + c] = sum;
         }
 }

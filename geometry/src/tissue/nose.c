@@ -4,10 +4,7 @@
 #include "geometry/vec.h"
 #include <stdlib.h>
 
-nose_params nose_params_default(void)
-{
-    return (nose_params){.dorsum_mm = 4, .tip_mm = 8, .foot_mm = 5};
-}
+nose_params nose_params_default(void) { return (nose_params){.dorsum_mm = 4, .tip_mm = 8, .foot_mm = 5}; }
 
 static const double opening_mm = 12; /* the rim of the nasal opening lies so far behind the spine, at most */
 
@@ -22,8 +19,7 @@ typedef struct place {
 
 static bool find_place(const landmarks *l, const nose_params *p, place *w)
 {
-    const landmark *n = landmarks_find(l, "N"), *ans = landmarks_find(l, "ANS"),
-                   *pn = landmarks_find(l, "Pn");
+    const landmark *n = landmarks_find(l, "N"), *ans = landmarks_find(l, "ANS"), *pn = landmarks_find(l, "Pn");
     if (!n || !ans || !pn) return false;
     double up[3], forward[3], middle[3], in[3];
     vec_copy(ans->xyz, w->spine);
@@ -86,8 +82,7 @@ static bool in_septum(const place *w, const tetmesh *m, int32_t t, const nose_pa
     if (low > 0 || high < 0) return false;
     for (int k = 0; k < 4; k++)
         gap = fmin(gap, gap_to_maxilla(w, m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + (size_t)k]));
-    return gap > p->foot_mm && in_borders(w, centre) &&
-           nearest_point(w->skin, centre, NULL, NULL) > p->dorsum_mm;
+    return gap > p->foot_mm && in_borders(w, centre) && nearest_point(w->skin, centre, NULL, NULL) > p->dorsum_mm;
 }
 
 static void mark(const tissue *t, const place *w, const nose_params *p, nose *n)
@@ -103,8 +98,7 @@ static void mark(const tissue *t, const place *w, const nose_params *p, nose *n)
     for (int32_t i = 0; i < 2 * t->attach.pair_count; i++) septum[t->attach.pair[i]] = 0; /* lips hang on no bone */
     n->anchor = NEW_ARRAY(int32_t, m->vertex_count);
     for (int32_t v = 0; v < m->vertex_count; v++)
-        if (septum[v] && t->side[v] == SIDE_HOLE &&
-            gap_to_maxilla(w, m->xyz + 3 * (size_t)v) > 2 * p->foot_mm)
+        if (septum[v] && t->side[v] == SIDE_HOLE && gap_to_maxilla(w, m->xyz + 3 * (size_t)v) > 2 * p->foot_mm)
             n->anchor[n->anchors++] = v;
     free(septum);
 }
@@ -116,8 +110,7 @@ bool nose_make(const tissue *t, const surface *skin, const segments *bones, cons
     *found = false;
     if (!find_place(l, p, &w)) return true;
     const surface *maxilla = &bones->part[SEGMENT_MAXILLA];
-    bool ok = nearest_create(skin, &w.skin, e) &&
-              (!maxilla->triangle_count || nearest_create(maxilla, &w.maxilla, e));
+    bool ok = nearest_create(skin, &w.skin, e) && (!maxilla->triangle_count || nearest_create(maxilla, &w.maxilla, e));
     if (ok) {
         nose n = {.region = COPY_ARRAY(int32_t, t->mesh.region, t->mesh.tet_count)};
         mark(t, &w, p, &n);

@@ -82,7 +82,9 @@ static void offer(neighbour list[NEIGHBOURS], int *held, neighbour n)
     } else {
         ++*held;
     }
-    for (; i > 0 && (list[i - 1].square > n.square || (list[i - 1].square == n.square && list[i - 1].vertex > n.vertex)); i--)
+    for (;
+         i > 0 && (list[i - 1].square > n.square || (list[i - 1].square == n.square && list[i - 1].vertex > n.vertex));
+         i--)
         list[i] = list[i - 1];
     list[i] = n;
 }
@@ -148,7 +150,8 @@ bool smoothed_motion(const surface *skin, const uint8_t *selected, const segment
     int32_t count = 0;
     for (int s = 0; s < SEGMENT_COUNT; s++) count += at_rest->part[s].vertex_count;
     if (count < NEIGHBOURS)
-        return err_set(e, ERR_GEOMETRY, "the segments have %d vertices; the smoothed motion needs %d", count, NEIGHBOURS);
+        return err_set(e, ERR_GEOMETRY, "the segments have %d vertices; the smoothed motion needs %d", count,
+                       NEIGHBOURS);
     bone_grid g = grid_make(at_rest, move, count);
     motion_job job = {&g, skin, selected, after};
     parallel_for(skin->vertex_count, 64, carry, &job);

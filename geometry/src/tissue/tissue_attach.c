@@ -19,7 +19,8 @@ static bool is_upper_jaw(int segment) { return segment == SEGMENT_CRANIUM || seg
 static vestibule find_vestibule(const landmarks *l, const head_frame *f, bool upper, double depth_mm)
 {
     vestibule z = {.depth_mm = depth_mm};
-    const landmark *incisor = landmarks_find(l, upper ? "U1" : "L1"), *left = landmarks_find(l, upper ? "U6_L" : "L6_L"),
+    const landmark *incisor = landmarks_find(l, upper ? "U1" : "L1"),
+                   *left = landmarks_find(l, upper ? "U6_L" : "L6_L"),
                    *right = landmarks_find(l, upper ? "U6_R" : "L6_R");
     if (!incisor || !left || !right) return z;
     double middle[3], across[3], along[3];

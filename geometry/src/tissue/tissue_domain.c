@@ -18,10 +18,12 @@ static bool find_stomion(const landmarks *l, double out[3], err *e)
 {
     const landmark *closed = landmarks_find(l, "Stm"), *upper = landmarks_find(l, "Stms"),
                    *lower = landmarks_find(l, "Stmi");
-    if (closed) vec_copy(closed->xyz, out);
+    if (closed)
+        vec_copy(closed->xyz, out);
     else if (upper && lower)
         for (int c = 0; c < 3; c++) out[c] = (upper->xyz[c] + lower->xyz[c]) / 2;
-    else return err_set(e, ERR_INPUT, "landmark Stm is missing (or Stms and Stmi): the lips cannot be told apart");
+    else
+        return err_set(e, ERR_INPUT, "landmark Stm is missing (or Stms and Stmi): the lips cannot be told apart");
     return true;
 }
 
@@ -53,10 +55,10 @@ static bool place_planes_and_lips(const tissue_input *in, tissue_domain *d, err 
     }
     if (!(d->lips.x[0] + 5 < d->lips.x[1] && d->lips.x[1] + 5 < d->lips.x[2]))
         return err_set(e, ERR_INPUT, "stomion does not lie between the mouth corners Ch_R and Ch_L");
-    static const char *const pairs[][2] = {{"Pn", "Sn"},   {"Sn", "Ls"},       {"Ls", "Stm"},  {"Stm", "Li_soft"},
-                                           {"Ls", "Stms"}, {"Stmi", "Li_soft"}, {"Li_soft", "B'"}, {"B'", "Pg'"},
-                                           {"Pg'", "Me'"}, {"Ch_L", "Ls"},     {"Ls", "Ch_R"}, {"Ch_L", "Li_soft"},
-                                           {"Li_soft", "Ch_R"}, {"Al_L", "Sn"}, {"Sn", "Al_R"}};
+    static const char *const pairs[][2] = {
+        {"Pn", "Sn"},        {"Sn", "Ls"},        {"Ls", "Stm"},       {"Stm", "Li_soft"}, {"Ls", "Stms"},
+        {"Stmi", "Li_soft"}, {"Li_soft", "B'"},   {"B'", "Pg'"},       {"Pg'", "Me'"},     {"Ch_L", "Ls"},
+        {"Ls", "Ch_R"},      {"Ch_L", "Li_soft"}, {"Li_soft", "Ch_R"}, {"Al_L", "Sn"},     {"Sn", "Al_R"}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) add_attractor(d, l, pairs[i][0], pairs[i][1]);
     if (!d->attractors) return err_set(e, ERR_INPUT, "no landmarks of lips, nose and chin: nowhere to refine the mesh");
     return true;

@@ -8,12 +8,12 @@ enum { MAX_ATTRACTORS = 16 };
 typedef struct tissue_domain {
     const tissue_params *params;
     head_frame frame;
-    sdf_grid skin, wrap, span; /* skin; wrap tight around the bones; wide wrap that spans the skeleton's holes */
-    double coronal, neck, brow;     /* cut planes in the head frame, mm */
+    sdf_grid skin, wrap, span;  /* skin; wrap tight around the bones; wide wrap that spans the skeleton's holes */
+    double coronal, neck, brow; /* cut planes in the head frame, mm */
     lip_sheet lips;
     double attract[MAX_ATTRACTORS][2][3]; /* segments along which elements are finest */
     int attractors;
-    double low[3], high[3];         /* box of the domain, LPS mm */
+    double low[3], high[3]; /* box of the domain, LPS mm */
 } tissue_domain;
 
 bool tissue_domain_make(const tissue_input *in, const tissue_params *p, tissue_domain *out, err *e) MUST_CHECK;

@@ -22,8 +22,7 @@ static void mark_sheet(const tissue_domain *d, const tetmesh *m, const int32_t *
     for (int32_t t = 0; t < m->tet_count; t++)
         for (int k = 0; k < 4; k++) {
             int32_t other = across[4 * (size_t)t + (size_t)k];
-            cut[4 * (size_t)t + (size_t)k] =
-                other >= 0 && m->region[other] != m->region[t] && in_fissure(d, m, t, k);
+            cut[4 * (size_t)t + (size_t)k] = other >= 0 && m->region[other] != m->region[t] && in_fissure(d, m, t, k);
         }
 }
 
@@ -34,7 +33,8 @@ static void join_crumbs(tetmesh *m, const int32_t *across, const uint8_t *cut)
     int32_t *seen = NEW_ARRAY(int32_t, m->tet_count), stack[4 * CRUMB + 4];
     for (int32_t t = 0; t < m->tet_count; t++) {
         int32_t part[CRUMB], size = 0, top = 0;
-        bool beside_cut = cut[4 * (size_t)t] || cut[4 * (size_t)t + 1] || cut[4 * (size_t)t + 2] || cut[4 * (size_t)t + 3];
+        bool beside_cut =
+            cut[4 * (size_t)t] || cut[4 * (size_t)t + 1] || cut[4 * (size_t)t + 2] || cut[4 * (size_t)t + 3];
         if (!beside_cut || seen[t]) continue;
         stack[top++] = t;
         seen[t] = t + 1;
@@ -85,8 +85,10 @@ void tissue_open_lips(const tissue_domain *d, tetmesh *m, uint8_t **side, lip_pa
                 if (!touched[v]) continue;
                 while (m->tet[j] != v) j++;
                 int32_t x = root_of(parent, i), y = root_of(parent, j);
-                if (x < y) parent[y] = x;
-                else parent[x] = y;
+                if (x < y)
+                    parent[y] = x;
+                else
+                    parent[x] = y;
             }
         }
     int32_t *first = NEW_ARRAY(int32_t, old_count), *upper = NEW_ARRAY(int32_t, old_count),

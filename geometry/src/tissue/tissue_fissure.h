@@ -4,7 +4,7 @@
 
 typedef struct lip_pairs {
     int32_t count;
-    int32_t *node;  /* [2*count] upper, lower; same place */
+    int32_t *node; /* [2*count] upper, lower; same place */
 } lip_pairs;
 
 /* Splits every node on the sheet between the mouth corners; new nodes go behind the old ones. side (grown with the

@@ -55,13 +55,11 @@ static void split_tet(const double *xyz, const int32_t node[10], int32_t out[32]
 {
     static const int corner[4][4] = {{0, 4, 5, 6}, {1, 4, 7, 8}, {2, 5, 7, 9}, {3, 6, 8, 9}};
     static const int diagonal[3][2] = {{4, 9}, {5, 8}, {6, 7}};
-    static const int around[3][4] = {
-        {5, 6, 8, 7}, {4, 6, 9, 7}, {4, 5, 9, 8}}; /* the other four, in a ring */
+    static const int around[3][4] = {{5, 6, 8, 7}, {4, 6, 9, 7}, {4, 5, 9, 8}}; /* the other four, in a ring */
     int best = 0;
     double shortest = HUGE_VAL;
     for (int k = 0; k < 3; k++) {
-        double d =
-            vec_distance(xyz + 3 * (size_t)node[diagonal[k][0]], xyz + 3 * (size_t)node[diagonal[k][1]]);
+        double d = vec_distance(xyz + 3 * (size_t)node[diagonal[k][0]], xyz + 3 * (size_t)node[diagonal[k][1]]);
         if (d < shortest * (1 - 1e-12)) {
             shortest = d;
             best = k;
@@ -69,8 +67,7 @@ static void split_tet(const double *xyz, const int32_t node[10], int32_t out[32]
     }
     for (int k = 0; k < 4; k++)
         for (int a = 0; a < 4; a++) {
-            const int inner[4] = {diagonal[best][0], diagonal[best][1], around[best][k],
-                                  around[best][(k + 1) % 4]};
+            const int inner[4] = {diagonal[best][0], diagonal[best][1], around[best][k], around[best][(k + 1) % 4]};
             out[4 * k + a] = node[corner[k][a]];
             out[16 + 4 * k + a] = node[inner[a]];
         }
@@ -114,8 +111,7 @@ static void pair_up(const attach_map *a, const edge_list *l, int32_t old_nodes, 
     }
     for (int32_t e = 0; e < l->count; e++) {
         int32_t u = (int32_t)(l->key[e] >> 32), v = (int32_t)(l->key[e] & 0xffffffff);
-        if (!(upper[u] || upper[v]) || (partner[u] != u && !upper[u]) || (partner[v] != v && !upper[v]))
-            continue;
+        if (!(upper[u] || upper[v]) || (partner[u] != u && !upper[u]) || (partner[v] != v && !upper[v])) continue;
         int32_t other = edge_at(l, partner[u], partner[v]);
         int32_t high = old_nodes + e, low = old_nodes + other;
         if (other < 0 || other == e || out->kind[high] != NODE_FREE || out->kind[low] != NODE_FREE) continue;
@@ -162,8 +158,7 @@ void tissue_refine(const tissue *t, tissue *out)
     for (int32_t i = 0; i < m->tet_count; i++) {
         int32_t node[10];
         memcpy(node, m->tet + 4 * (size_t)i, 4 * sizeof *node);
-        for (int k = 0; k < 6; k++)
-            node[4 + k] = old_nodes + edge_at(&l, node[edge_ends[k][0]], node[edge_ends[k][1]]);
+        for (int k = 0; k < 6; k++) node[4 + k] = old_nodes + edge_at(&l, node[edge_ends[k][0]], node[edge_ends[k][1]]);
         split_tet(fine.mesh.xyz, node, fine.mesh.tet + 32 * (size_t)i);
         for (int k = 0; k < 8; k++) fine.mesh.region[8 * (size_t)i + k] = m->region[i];
     }
@@ -198,8 +193,8 @@ void embedding_refine(const embedding *e, const tetmesh *coarse, const tetmesh *
         if (e->tet[i] < 0) continue;
         double p[3] = {0}, best = -HUGE_VAL;
         for (int a = 0; a < 4; a++)
-            vec_axpy(p, e->weight[4 * (size_t)i + a],
-                     coarse->xyz + 3 * (size_t)coarse->tet[4 * (size_t)e->tet[i] + a], p);
+            vec_axpy(p, e->weight[4 * (size_t)i + a], coarse->xyz + 3 * (size_t)coarse->tet[4 * (size_t)e->tet[i] + a],
+                     p);
         for (int k = 0; k < 8; k++) { /* the part that the point is in, or least outside of */
             double w[4], least;
             int32_t child = 8 * e->tet[i] + k;

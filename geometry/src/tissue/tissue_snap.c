@@ -67,8 +67,10 @@ static void improve_node(tetmesh *m, const int32_t *start, const int32_t *list, 
             double from = x[c / 2];
             x[c / 2] += c % 2 ? step : -step;
             double now = worst_around(m, start, list, v);
-            if (now > best) best = now;
-            else x[c / 2] = from;
+            if (now > best)
+                best = now;
+            else
+                x[c / 2] = from;
         }
 }
 
@@ -120,7 +122,8 @@ bool tissue_snap_to_bone(const tissue_input *in, const tissue_domain *d, tetmesh
                 continue;
             }
             if (gap == 0 || try_move(m, start, list, v, at)) continue;
-            if (pass + 1 < passes) relax_inside(m, start, list, side, v);
+            if (pass + 1 < passes)
+                relax_inside(m, start, list, side, v);
             else if (gap > 0.05) {
                 side[v] = SIDE_HOLE;
                 report->not_snapped++;

@@ -60,8 +60,7 @@ static double lip_gap(const contact *c, int32_t i, const contact_link *link, con
     return gap;
 }
 
-double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3],
-                        double *hess)
+double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3], double *hess)
 {
     const bone_shape *shape = c->setup.shape[link->collider];
     if (link->flat) {
@@ -154,14 +153,12 @@ static void turn_hessian(const double R[9], const double hess[9], double turned[
         for (int b = 0; b < 3; b++) {
             turned[3 * a + b] = 0;
             for (int p = 0; p < 3; p++)
-                for (int q = 0; q < 3; q++)
-                    turned[3 * a + b] += R[3 * a + p] * hess[3 * p + q] * R[3 * b + q];
+                for (int q = 0; q < 3; q++) turned[3 * a + b] += R[3 * a + p] * hess[3 * p + q] * R[3 * b + q];
         }
 }
 
 /* A node on a curved level feels the curve: minus its reaction times the Hessian of the distance. */
-static void add_level_curvature(const contact *c, int32_t i, const double *x, const double *force,
-                                double block[9])
+static void add_level_curvature(const contact *c, int32_t i, const double *x, const double *force, double block[9])
 {
     const bone_shape *shape = c->setup.shape[c->level_segment[i]];
     double at[3], m[3], hess[9], turned[9];
@@ -175,10 +172,7 @@ static void add_level_curvature(const contact *c, int32_t i, const double *x, co
     for (int k = 0; k < 9; k++) block[k] -= vec_dot(force + v, m) / square * turned[k];
 }
 
-bool contact_is_deep(const contact *c, double delta)
-{
-    return delta > shallow_depths * c->setup.params.depth_mm;
-}
+bool contact_is_deep(const contact *c, double delta) { return delta > shallow_depths * c->setup.params.depth_mm; }
 
 /* Deep contacts bend the energy so much that curvature only misleads: it counts once all are shallow. */
 static bool is_shallow(const contact *c)
@@ -226,8 +220,7 @@ static double *block_of(const assembly *a, const int32_t *first_edge, int32_t u,
         else
             high = middle;
     }
-    return low < first_edge[u + 1] && a->edge_node[2 * (size_t)low + 1] == v ? a->edge_block + 9 * (size_t)low
-                                                                             : NULL;
+    return low < first_edge[u + 1] && a->edge_node[2 * (size_t)low + 1] == v ? a->edge_block + 9 * (size_t)low : NULL;
 }
 
 static double *block_between(const assembly *a, const int32_t *first_edge, int32_t u, int32_t v)
@@ -237,8 +230,7 @@ static double *block_between(const assembly *a, const int32_t *first_edge, int32
 
 /* w (m.x_i - sum weight m.x_k)^2 / 2. Where a pair is missing in the pattern, the diagonal bound
  * w (m.x_i)^2 + w sum weight (m.x_k)^2 instead: still positive, only slower. */
-static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, int32_t i,
-                    const contact_link *link)
+static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, int32_t i, const contact_link *link)
 {
     const int32_t *name = c->lip_node[link->collider - COLLIDER_UPPER];
     double w = 6 * stiffness_of(c, i, link) * link->cover * link->delta;
@@ -247,8 +239,7 @@ static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, in
     for (int32_t k = 0; whole && k < link->count; k++) {
         int32_t p = name[link->sample[k]];
         whole = block_between(a, first_edge, v, p) != NULL;
-        for (int32_t j = 0; whole && j < k; j++)
-            whole = block_between(a, first_edge, p, name[link->sample[j]]) != NULL;
+        for (int32_t j = 0; whole && j < k; j++) whole = block_between(a, first_edge, p, name[link->sample[j]]) != NULL;
     }
     c->report.uncoupled += !whole;
     add_outer(block_of(a, first_edge, v, v), whole ? w : 2 * w, link->m);
@@ -259,8 +250,7 @@ static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, in
         if (!whole) continue;
         add_outer(block_between(a, first_edge, v, p), -w * share, link->m);
         for (int32_t j = 0; j < k; j++)
-            add_outer(block_between(a, first_edge, p, name[link->sample[j]]), w * share * link->weight[j],
-                      link->m);
+            add_outer(block_between(a, first_edge, p, name[link->sample[j]]), w * share * link->weight[j], link->m);
     }
 }
 

@@ -31,8 +31,7 @@ bool contact_stiffen(contact *c)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
             if (depth_of(&c->link[l]) > c->setup.params.depth_limit_mm && !contact_is_pinched(c, i)) {
                 c->link[l].stiffening *= stiffening_step;
-                c->link[l].delta_here =
-                    c->link[l].delta / sqrt(stiffening_step); /* where the force is what it was */
+                c->link[l].delta_here = c->link[l].delta / sqrt(stiffening_step); /* where the force is what it was */
                 c->link[l].delta_factored = 0;
                 any = true;
             }
@@ -66,8 +65,7 @@ contact_report contact_measure(const contact *c)
             if (!pinched) r.depth_mm = fmax(r.depth_mm, depth_of(link));
             r.lost += link->lost;
             r.guards += link->near && link->guard;
-            if (!is_lip(link))
-                vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);
+            if (!is_lip(link)) vec_sub(r.bone_force_mn[link->collider], link->force, r.bone_force_mn[link->collider]);
             double pressure = vec_norm(link->force) / c->area[i] * (is_lip(link) ? 2 : 1);
             r.pressure_kpa = fmax(r.pressure_kpa, pressure);
             /* touching begins where the force is worth a name */

@@ -7,15 +7,13 @@
 static const double flat = 0.3; /* gradients shorter than this have no direction: between two surfaces */
 
 /* How far the node at x is off its level along n (unit, out of its bone); false: the bone cannot tell. */
-static bool find_off(const contact *c, const attach_map *attach, int32_t i, const double *x, double *off,
-                     double n[3])
+static bool find_off(const contact *c, const attach_map *attach, int32_t i, const double *x, double *off, double n[3])
 {
     const int s = c->level_segment[i];
     if (s < 0) return false;
     const bone_shape *shape = c->setup.shape[s];
     double at[3], level = c->level_mm[i];
-    if (attach->shift_mm)
-        level = fmax(level + attach->shift_mm[c->node[i]], fmin(0, level)); /* not into the bone */
+    if (attach->shift_mm) level = fmax(level + attach->shift_mm[c->node[i]], fmin(0, level)); /* not into the bone */
     rigid_apply(&c->back[s], x + 3 * (size_t)c->node[i], at);
     *off = shape->distance(shape->context, at, n, NULL) - level;
     double size = vec_norm(n);

@@ -19,8 +19,8 @@ typedef struct imls_value {
 
 /* At x with radii times scale, over list[count]. S = 0: nothing is near, d = HUGE_VAL. weight[count]: w_i /
  * S. */
-imls_value imls_at(const imls_cloud *cloud, const int32_t *list, int32_t count, double scale,
-                   const double x[3], double *weight);
+imls_value imls_at(const imls_cloud *cloud, const int32_t *list, int32_t count, double scale, const double x[3],
+                   double *weight);
 
 /* 0 below S = 0.02, 1 above 0.15. */
 double imls_cover(double S);

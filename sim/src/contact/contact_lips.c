@@ -108,8 +108,7 @@ lip_view contact_view_lip(const contact *c, int32_t i, const contact_link *link,
     for (int32_t s = 0; s < cloud->count; s++) {
         vec_sub(at, cloud->x + 3 * (size_t)s, r);
         double square = vec_dot(r, r);
-        if (square >= best || vec_dot(cloud->n + 3 * (size_t)s, facing) < c->setup.params.facing_cos)
-            continue;
+        if (square >= best || vec_dot(cloud->n + 3 * (size_t)s, facing) < c->setup.params.facing_cos) continue;
         best = square;
         v.nearest = s;
     }
@@ -141,8 +140,7 @@ void contact_refresh_lip(contact *c, int32_t i, contact_link *link, const double
     for (int32_t s = 0; s < cloud->count; s++) {
         double r[3], reach = scale * cloud->h[s];
         vec_sub(at, cloud->x + 3 * (size_t)s, r);
-        if (vec_dot(r, r) >= reach * reach ||
-            vec_dot(cloud->n + 3 * (size_t)s, facing) < c->setup.params.facing_cos)
+        if (vec_dot(r, r) >= reach * reach || vec_dot(cloud->n + 3 * (size_t)s, facing) < c->setup.params.facing_cos)
             continue;
         if (link->count == link->room) {
             link->room = 2 * link->room + 16;

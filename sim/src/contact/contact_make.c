@@ -33,11 +33,9 @@ static bool check_params(const contact_params *p, err *e)
         return err_set(e, ERR_INPUT, "contact depth_limit_mm must be > 0, got %g", p->depth_limit_mm);
     if (!(p->facing_cos >= -1 && p->facing_cos < 1))
         return err_set(e, ERR_INPUT, "contact facing_cos must lie in [-1, 1), got %g", p->facing_cos);
-    if (!(p->slide_mm >= 0))
-        return err_set(e, ERR_INPUT, "contact slide_mm must be >= 0, got %g", p->slide_mm);
+    if (!(p->slide_mm >= 0)) return err_set(e, ERR_INPUT, "contact slide_mm must be >= 0, got %g", p->slide_mm);
     if (!(p->free_rel_tol > 0 && p->free_rel_tol < 1))
-        return err_set(e, ERR_INPUT, "contact free_rel_tol must lie between 0 and 1, got %g",
-                       p->free_rel_tol);
+        return err_set(e, ERR_INPUT, "contact free_rel_tol must lie between 0 and 1, got %g", p->free_rel_tol);
     if (p->free_iterations < 0 || p->refresh_iterations < 0 || p->max_stiffenings < 0)
         return err_set(e, ERR_INPUT, "contact iteration limits must be >= 0");
     return true;
@@ -101,10 +99,8 @@ static bool find_nodes(contact *c, const tetmesh *m, const attach_map *a, err *e
     int32_t *number = NEW_ARRAY(int32_t, m->vertex_count), *face = NULL;
     const contact_setup *s = &c->setup;
     for (int32_t v = 0; v < m->vertex_count; v++) in[v] = a->kind[v] == NODE_SLIDING;
-    for (int32_t i = 0; i < 3 * s->upper_count; i++)
-        in[s->upper_lip[i]] |= a->kind[s->upper_lip[i]] != NODE_TIED;
-    for (int32_t i = 0; i < 3 * s->lower_count; i++)
-        in[s->lower_lip[i]] |= a->kind[s->lower_lip[i]] != NODE_TIED;
+    for (int32_t i = 0; i < 3 * s->upper_count; i++) in[s->upper_lip[i]] |= a->kind[s->upper_lip[i]] != NODE_TIED;
+    for (int32_t i = 0; i < 3 * s->lower_count; i++) in[s->lower_lip[i]] |= a->kind[s->lower_lip[i]] != NODE_TIED;
     for (int32_t i = 0; i < s->extra_count; i++) in[s->extra[i]] = 1;
     for (int32_t v = 0; v < m->vertex_count; v++) number[v] = in[v] ? c->node_count++ : -1;
     c->node = NEW_ARRAY(int32_t, c->node_count);
@@ -212,8 +208,7 @@ static void measure_levels(contact *c, const tetmesh *m, const attach_map *a)
         int32_t v = c->node[i];
         const bone_shape *shape = a->kind[v] == NODE_SLIDING ? c->setup.shape[a->segment[v]] : NULL;
         double grad[3], level = HUGE_VAL;
-        if (c->setup.held && shape)
-            level = shape->distance(shape->context, m->xyz + 3 * (size_t)v, grad, NULL);
+        if (c->setup.held && shape) level = shape->distance(shape->context, m->xyz + 3 * (size_t)v, grad, NULL);
         c->level_segment[i] = level < HUGE_VAL ? (int8_t)a->segment[v] : -1;
         c->level_mm[i] = level;
     }

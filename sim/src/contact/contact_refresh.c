@@ -36,7 +36,6 @@ void contact_refresh(contact *c, const double *x)
 double contact_refresh_change(const contact *c)
 {
     double worst = 0;
-    for (int32_t l = 0; l < c->link_count; l++)
-        worst = fmax(worst, fabs(c->link[l].delta - c->link[l].delta_before));
+    for (int32_t l = 0; l < c->link_count; l++) worst = fmax(worst, fabs(c->link[l].delta - c->link[l].delta_before));
     return worst;
 }

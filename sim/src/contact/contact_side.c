@@ -4,13 +4,11 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double deep_mm =
-    0.3; /* in a shape: a node whose way back is not found is given up from here on */
+static const double deep_mm = 0.3;    /* in a shape: a node whose way back is not found is given up from here on */
 static const double backwards = -0.2; /* cosine to the way back, of a nearest surface that is the wrong one */
 static const double least_mm = 0.5;   /* of a move that can lead right through a bone */
 static const double behind_mm = 0.3;  /* the bone's face on the way back, a guard's plane lies */
-static const double edge_mm =
-    0.4; /* thinner bone is an edge round which a node can have turned; more than behind_mm */
+static const double edge_mm = 0.4; /* thinner bone is an edge round which a node can have turned; more than behind_mm */
 
 /* Where the node is in the bone's place at rest, and the direction that the bone's surface must face. */
 static void look(const contact *c, int32_t i, int32_t bone, const double *x, double at[3], double facing[3])
@@ -23,8 +21,8 @@ static void look(const contact *c, int32_t i, int32_t bone, const double *x, dou
 
 /* Where the way back to where the node came from leaves the bone. The node cannot have gone farther into it
  * than it went; a bone that lies behind the tissue at rest too was not passed. */
-static bool find_way_back(const contact *c, int32_t i, int32_t bone, const double at[3],
-                          const double facing[3], double hit[3], double normal[3])
+static bool find_way_back(const contact *c, int32_t i, int32_t bone, const double at[3], const double facing[3],
+                          double hit[3], double normal[3])
 {
     const bone_shape *shape = c->setup.shape[bone];
     const double *rest = c->rest_xyz + 3 * (size_t)c->node[i];
@@ -32,8 +30,7 @@ static bool find_way_back(const contact *c, int32_t i, int32_t bone, const doubl
     if (!shape->leave(shape->context, at, facing, gone + deep_mm, hit, normal)) return false;
     if (!(vec_dot(normal, facing) > -backwards)) return false;
     vec_scale(c->outward + 3 * (size_t)i, -1, rest_facing);
-    return !shape->leave(shape->context, rest, rest_facing, vec_distance(hit, at) + deep_mm, rest_hit,
-                         rest_normal) ||
+    return !shape->leave(shape->context, rest, rest_facing, vec_distance(hit, at) + deep_mm, rest_hit, rest_normal) ||
            vec_distance(rest, rest_hit) <= deep_mm; /* its own surface */
 }
 
@@ -70,8 +67,8 @@ void contact_find_side(const contact *c, int32_t i, contact_link *link, const do
 
 /* Outside, but its straight way there leads through the bone, and so does the way that it should be pushed.
  * hit: where that leaves the bone, towards facing. */
-static bool has_passed(const contact *c, int32_t i, const contact_link *link, const double *x,
-                       double facing[3], double hit[3])
+static bool has_passed(const contact *c, int32_t i, const contact_link *link, const double *x, double facing[3],
+                       double hit[3])
 {
     if (is_lip(link) || link->guard || link->flat) return false;
     const bone_shape *shape = c->setup.shape[link->collider];
@@ -99,10 +96,7 @@ int32_t contact_passed(const contact *c, const double *x)
 }
 
 /* Sliding nodes are where their own bone has them. */
-static bool is_free(const contact *c, int32_t i)
-{
-    return c->level_segment[i] < 0;
-}
+static bool is_free(const contact *c, int32_t i) { return c->level_segment[i] < 0; }
 
 int32_t contact_guard(contact *c, const double *x)
 {
@@ -111,8 +105,7 @@ int32_t contact_guard(contact *c, const double *x)
     for (int32_t i = 0; i < c->node_count; i++)
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
             contact_link *guard = &c->link[l];
-            if (!guard->guard || guard->near || !is_free(c, i) ||
-                !has_passed(c, i, guard - 1, x, facing, hit))
+            if (!guard->guard || guard->near || !is_free(c, i) || !has_passed(c, i, guard - 1, x, facing, hit))
                 continue;
             raise_guard(guard, facing, hit, behind_mm);
             count++;

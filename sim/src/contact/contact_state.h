@@ -11,12 +11,12 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool guard; /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
-                   link before */
-    bool flat;  /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side
-                 */
-    bool faced; /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
-    int turns;  /* of flat, since contact_restart */
+    bool guard;           /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
+                             link before */
+    bool flat;            /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side
+                           */
+    bool faced;           /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
+    int turns;            /* of flat, since contact_restart */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
@@ -27,14 +27,11 @@ typedef struct contact_link {
     int32_t count, room, *sample; /* lips: gap = base + m.(x - sum weight x_sample) */
     double *weight;
     /* of the last contact_energy */
-    double gap, delta, force[3]; /* delta = tau - gap where positive and covered, else 0; dE/dx */
+    double gap, delta, force[3];                     /* delta = tau - gap where positive and covered, else 0; dE/dx */
     double delta_before, delta_factored, delta_here; /* at the last refresh, in the matrix, at contact_mark */
 } contact_link;
 
-static inline bool is_lip(const contact_link *link)
-{
-    return link->collider >= SEGMENT_COUNT;
-}
+static inline bool is_lip(const contact_link *link) { return link->collider >= SEGMENT_COUNT; }
 
 typedef struct contact {
     contact_setup setup;
@@ -79,8 +76,7 @@ void contact_retract(const contact *c, const attach_map *attach, double *x);
  * Returns the farthest move of a node, mm. */
 double contact_follow(const contact *c, const attach_map *attach, boundary *b, const double *x);
 /* Signed distance of a bone from a point at[3] in its own place at rest, HUGE_VAL: nothing is near. */
-double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3],
-                        double *hess);
+double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3], double *hess);
 /* Energy in uJ; adds to force[3*nodes] (may be NULL). */
 double contact_energy(contact *c, const double *x, double *force);
 /* What rounding of x does to the forces of the last contact_energy, as a norm, mN. */

@@ -38,8 +38,7 @@ double contact_yield(const contact *c, const boundary *b, double *z)
             vec_scale(link->force, -way / vec_norm(link->force), out);
             size_t v = (size_t)c->node[i];
             for (int k = 0; k < 3; k++)
-                if (b->unknown[3 * v + k] >= 0)
-                    z[b->unknown[3 * v + k]] += vec_dot(b->basis + 9 * v + 3 * k, out);
+                if (b->unknown[3 * v + k] >= 0) z[b->unknown[3 * v + k]] += vec_dot(b->basis + 9 * v + 3 * k, out);
             farthest = fmax(farthest, way);
         }
     return farthest;

@@ -3,8 +3,7 @@
 #include <float.h>
 
 /* Rounding of F: coordinates lose eps |x|, divided by the size of the tet. */
-static double element_noise(const assembly *a, int32_t t, const double *x, double *stiffness,
-                            double *steepest)
+static double element_noise(const assembly *a, int32_t t, const double *x, double *stiffness, double *steepest)
 {
     double reach = 0, g = 0, x_e[12];
     element_nodes(a->tet, t, x, x_e);

@@ -168,8 +168,7 @@ material average_material(const averages *g, const elements *el, int64_t t)
 {
     material m = el->materials[el->material[t]];
     m.lambda_kpa -= m.averaged_kpa;
-    for (int k = 0; k < 4 && g->patch[4 * t] >= 0; k++)
-        m.pressure_kpa += g->pressure[g->patch[4 * t + k]] / 4;
+    for (int k = 0; k < 4 && g->patch[4 * t] >= 0; k++) m.pressure_kpa += g->pressure[g->patch[4 * t + k]] / 4;
     return m;
 }
 
@@ -204,8 +203,7 @@ void average_slopes(averages *g, const elements *el, const double *x)
 
 void average_add(const averages *g, int64_t pair, double block[9])
 {
-    const double *low = g->slope + 3 * (size_t)g->pair[2 * pair],
-                 *high = g->slope + 3 * (size_t)g->pair[2 * pair + 1];
+    const double *low = g->slope + 3 * (size_t)g->pair[2 * pair], *high = g->slope + 3 * (size_t)g->pair[2 * pair + 1];
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) block[3 * i + j] += low[i] * high[j];
 }

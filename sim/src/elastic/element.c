@@ -17,8 +17,7 @@ bool element_choose(material *m, element_kind kind, err *e)
     if (kind == ELEMENT_AVERAGED && !able)
         return err_set(e, ERR_INPUT, "averaged volume changes need snhlog or snh, got %s",
                        material_model_name(m->model));
-    bool average =
-        kind == ELEMENT_AVERAGED || (kind == ELEMENT_AUTO && able && m->poisson >= element_average_from);
+    bool average = kind == ELEMENT_AVERAGED || (kind == ELEMENT_AUTO && able && m->poisson >= element_average_from);
     double twice_mu = m->young_kpa / (1 + m->poisson), own = m->poisson / (1 - 2 * m->poisson),
            kept = element_keeps / (1 - 2 * element_keeps);
     m->averaged_kpa = average ? twice_mu * fmax(0, own - kept) : 0;
@@ -90,8 +89,7 @@ void element_gradient_F(const double gradient[12], const double x_e[12], double 
             F[3 * i + j] = d[0][i] * gradient[3 + j] + d[1][i] * gradient[6 + j] + d[2][i] * gradient[9 + j];
 }
 
-double element_energy(const material *m, const double gradient[12], double volume, const double x_e[12],
-                      double *force)
+double element_energy(const material *m, const double gradient[12], double volume, const double x_e[12], double *force)
 {
     double F[9];
     element_gradient_F(gradient, x_e, F);

@@ -5,8 +5,7 @@
 #include <assert.h>
 #include <string.h>
 
-static const char *const model_names[MATERIAL_MODEL_COUNT] = {"snhlog", "snh", "nhln",
-                                                              "nhiso",  "fcr", "arap"};
+static const char *const model_names[MATERIAL_MODEL_COUNT] = {"snhlog", "snh", "nhln", "nhiso", "fcr", "arap"};
 
 const char *material_model_name(material_model model)
 {
@@ -44,18 +43,12 @@ bool material_make(material_model model, double young_kpa, double poisson, mater
         m.mu_kpa = 4.0 / 3.0 * mu;
         m.lambda_kpa = lambda + 5.0 / 6.0 * mu;
         break;
-    case MATERIAL_SNH:
-        m.lambda_kpa = lambda + mu;
-        break;
-    case MATERIAL_NH_ISO:
-        m.lambda_kpa = lambda + 2.0 / 3.0 * mu;
-        break; /* the bulk modulus */
+    case MATERIAL_SNH: m.lambda_kpa = lambda + mu; break;
+    case MATERIAL_NH_ISO: m.lambda_kpa = lambda + 2.0 / 3.0 * mu; break; /* the bulk modulus */
     case MATERIAL_NH_LN:
     case MATERIAL_FIXED_COROTATED:
-    case MATERIAL_ARAP:
-        break;
-    default:
-        assert(0);
+    case MATERIAL_ARAP: break;
+    default: assert(0);
     }
     *out = m;
     return true;
@@ -110,8 +103,7 @@ material_terms material_terms_at(const material *m, const double F[9])
         t.psi_jj = mu * 5 / 9 * w * I / (J * J) + la;
         break;
     }
-    default:
-        assert(0);
+    default: assert(0);
     }
     return t;
 }
@@ -176,8 +168,7 @@ void material_hessian_projected(const material *m, const double F[9], projection
     if (how == PROJECTION_NONE) return;
     double value[9], mode[9][9];
     int count = material_negative_modes(&t, F, value, mode);
-    for (int k = 0; k < count; k++)
-        add_outer((how == PROJECTION_ABS ? -2 : -1) * value[k], mode[k], mode[k], H);
+    for (int k = 0; k < count; k++) add_outer((how == PROJECTION_ABS ? -2 : -1) * value[k], mode[k], mode[k], H);
 }
 
 void material_hessian(const material *m, const double F[9], double H[81])
@@ -210,8 +201,7 @@ int material_negative_modes(const material_terms *t, const double F[9], double v
                            2 * t->psi_ij * (s[i] * cof[j] + s[j] * cof[i]);
             A[3 * i + j] += i == j ? 2 * t->psi_i : t->psi_j * s[3 - i - j];
         }
-    if (A[0] > 0 && A[0] * A[4] > A[1] * A[1] && mat_det(A) > 0)
-        return count; /* positive definite: none among these */
+    if (A[0] > 0 && A[0] * A[4] > A[1] * A[1] && mat_det(A) > 0) return count; /* positive definite: none among these */
     symmetric_eigen(3, A, w, Q);
     for (int k = 0; k < 3; k++) {
         if (!(w[k] < 0)) continue;

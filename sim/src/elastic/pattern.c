@@ -4,8 +4,7 @@
 #include <stdlib.h>
 
 /* order[] = 0..count-1 sorted by key, stable; keys in [0, key_count). */
-static void stable_sort(const int32_t *key, int64_t count, int32_t key_count, const int32_t *in,
-                        int32_t *order)
+static void stable_sort(const int32_t *key, int64_t count, int32_t key_count, const int32_t *in, int32_t *order)
 {
     int64_t *start = NEW_ARRAY(int64_t, (size_t)key_count + 1);
     for (int64_t i = 0; i < count; i++) start[key[i] + 1]++;
@@ -93,8 +92,7 @@ static void make_pattern(assembly *a, const boundary *b)
     for (int64_t i = 0; i < blocks; i++) {
         a->slot[i] = -1;
         const int32_t *edge = a->edge_node + 2 * (i / 9);
-        int32_t p = b->unknown[3 * (size_t)edge[0] + (i % 9) / 3],
-                q = b->unknown[3 * (size_t)edge[1] + i % 3];
+        int32_t p = b->unknown[3 * (size_t)edge[0] + (i % 9) / 3], q = b->unknown[3 * (size_t)edge[1] + i % 3];
         if (p < 0 || q < 0 || (edge[0] == edge[1] && p < q)) continue;
         block[claims] = (int32_t)i;
         row[claims] = p > q ? p : q;
@@ -134,13 +132,12 @@ static void make_pattern(assembly *a, const boundary *b)
 
 static bool check_size(const tetmesh *m, int64_t entries, err *e)
 {
-    return entries <= INT32_MAX ||
-           err_set(e, ERR_RESOURCE, "%d tets are too many: %lld entries, the limit is %d", m->tet_count,
-                   (long long)entries, INT32_MAX);
+    return entries <= INT32_MAX || err_set(e, ERR_RESOURCE, "%d tets are too many: %lld entries, the limit is %d",
+                                           m->tet_count, (long long)entries, INT32_MAX);
 }
 
-bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int32_t *coupling,
-                   int32_t coupling_count, assembly *out, err *e)
+bool assembly_make(const tetmesh *m, elements *el, const boundary *b, const int32_t *coupling, int32_t coupling_count,
+                   assembly *out, err *e)
 {
     assert(el->count == m->tet_count && b->node_count == m->vertex_count);
     if (!check_size(m, 2 * ELEMENT_PAIRS * (int64_t)m->tet_count, e)) return false;

@@ -35,10 +35,7 @@ static void nearest_rotation(const double U[9], const double V[9], double R[9])
         for (int j = 0; j < 3; j++) R[3 * i + j] = vec_dot(U + 3 * i, V + 3 * j);
 }
 
-static double lambda_of(const material *m)
-{
-    return m->model == MATERIAL_ARAP ? 0 : m->lambda_kpa;
-}
+static double lambda_of(const material *m) { return m->model == MATERIAL_ARAP ? 0 : m->lambda_kpa; }
 
 double shape_energy(const material *m, const double F[9], double P[9])
 {

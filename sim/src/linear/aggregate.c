@@ -16,8 +16,7 @@ static int64_t node_norms(const blocks *a, int per, int32_t i, double *norm)
     for (int r = 0; r < per; r++) {
         int64_t row = a->start[(int64_t)per * i + r];
         for (int64_t k = 0; k < count * per; k++)
-            for (int c = 0; c < 9; c++)
-                norm[k / per] += a->value[9 * (row + k) + c] * a->value[9 * (row + k) + c];
+            for (int c = 0; c < 9; c++) norm[k / per] += a->value[9 * (row + k) + c] * a->value[9 * (row + k) + c];
     }
     return count;
 }
@@ -41,8 +40,7 @@ static graph strong_graph(const blocks *a, int per)
             for (int64_t k = 0; k < columns; k++) {
                 int32_t j = a->column[first + per * k] / per;
                 if (pass == 0 && i == j) own[i] = norm[k];
-                if (pass == 1 && i != j && norm[k] > strong * strong * sqrt(own[i] * own[j]))
-                    g.to[count++] = j;
+                if (pass == 1 && i != j && norm[k] > strong * strong * sqrt(own[i] * own[j])) g.to[count++] = j;
             }
             g.start[i + 1] = count;
         }
@@ -66,8 +64,7 @@ int32_t aggregate_nodes(const blocks *a, int per, int32_t *of)
     }
     int32_t *joined = COPY_ARRAY(int32_t, of, nodes);
     for (int32_t i = 0; i < nodes; i++) /* what is left joins one that it touches */
-        for (int64_t k = g.start[i]; of[i] < 0 && joined[i] < 0 && k < g.start[i + 1]; k++)
-            joined[i] = of[g.to[k]];
+        for (int64_t k = g.start[i]; of[i] < 0 && joined[i] < 0 && k < g.start[i + 1]; k++) joined[i] = of[g.to[k]];
     memcpy(of, joined, (size_t)nodes * sizeof *of);
     free(joined);
     for (int32_t i = 0; i < nodes; i++) { /* or its like */
@@ -139,8 +136,7 @@ static blocks tentative(int per, int32_t nodes, const int32_t *of, int32_t count
         memcpy(coarse_modes + (size_t)(MODES * MODES) * (size_t)g, r, sizeof r);
         for (int64_t row = 0; row < per * size; row++) {
             double *v = t.value + 9 * t.start[per * (int64_t)member[first + row / per] + row % per];
-            for (int c = 0; c < 18; c++)
-                v[c] = q[block * (size_t)row + 6 * (c % 9 / 3) + 3 * (c / 9) + c % 3];
+            for (int c = 0; c < 18; c++) v[c] = q[block * (size_t)row + 6 * (c % 9 / 3) + 3 * (c / 9) + c % 3];
         }
     }
     free(member_start);

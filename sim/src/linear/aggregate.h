@@ -13,5 +13,4 @@ int32_t aggregate_nodes(const blocks *a, int blocks_per_node, int32_t *of);
  * values of the rigid motions, [component][mode] in each block; coarse_modes[18*2*count]: the same there.
  * inverse[9*rows]: inverse diagonal blocks; damping: of the Jacobi step. */
 blocks aggregate_prolongation(const blocks *a, int blocks_per_node, const int32_t *of, int32_t count,
-                              const double *modes, const double *inverse, double damping,
-                              double *coarse_modes);
+                              const double *modes, const double *inverse, double damping, double *coarse_modes);

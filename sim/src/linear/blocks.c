@@ -67,8 +67,7 @@ static void product_body(int64_t begin, int64_t end, void *context)
         if (job->counting) {
             c->start[i + 1] = count;
             for (int64_t k = a->start[i]; k < a->start[i + 1]; k++)
-                for (int64_t l = b->start[a->column[k]]; l < b->start[a->column[k] + 1]; l++)
-                    place[b->column[l]] = 0;
+                for (int64_t l = b->start[a->column[k]]; l < b->start[a->column[k] + 1]; l++) place[b->column[l]] = 0;
             continue;
         }
         qsort(c->column + first, (size_t)(count - first), sizeof *c->column, blocks_by_number);

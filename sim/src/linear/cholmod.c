@@ -35,8 +35,8 @@ static bool check_status(linear *l, const char *what, err *e)
     return err_set(e, ERR_INTERNAL, "CHOLMOD status %d on trying to %s", l->common.status, what);
 }
 
-bool linear_create(int64_t unknown_count, const int64_t *start, const int64_t *row, int blas_threads,
-                   linear **out, err *e)
+bool linear_create(int64_t unknown_count, const int64_t *start, const int64_t *row, int blas_threads, linear **out,
+                   err *e)
 {
     static_assert(sizeof(SuiteSparse_long) == sizeof(int64_t), "CHOLMOD long integers are 64 bits");
     assert(unknown_count > 0 && blas_threads > 0);

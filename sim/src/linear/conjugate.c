@@ -20,8 +20,7 @@ static void precondition(int64_t n, const double *diagonal, const double *r, dou
 int conjugate_solve(int64_t n, conjugate_apply *apply, void *context, const double *diagonal, const double *b,
                     double *x, double rel_tol, int max_iterations)
 {
-    double *r = NEW_ARRAY(double, n), *z = NEW_ARRAY(double, n), *p = NEW_ARRAY(double, n),
-           *q = NEW_ARRAY(double, n);
+    double *r = NEW_ARRAY(double, n), *z = NEW_ARRAY(double, n), *p = NEW_ARRAY(double, n), *q = NEW_ARRAY(double, n);
     precondition(n, diagonal, b, z);
     double target = rel_tol * sqrt(fabs(dot(b, z, n)));
     apply(x, q, context);

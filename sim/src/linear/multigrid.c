@@ -69,8 +69,7 @@ static bool coarsen(level *l, int blocks_per_node, const double *modes, const do
     bool worth = count > 0 && 8 * (int64_t)count <= 3 * (int64_t)l->a.rows;
     if (worth) {
         *next_modes = NEW_ARRAY(double, 36 * (size_t)count);
-        l->p = aggregate_prolongation(&l->a, blocks_per_node, of, count, modes, inverse, 4 / (3 * l->top),
-                                      *next_modes);
+        l->p = aggregate_prolongation(&l->a, blocks_per_node, of, count, modes, inverse, 4 / (3 * l->top), *next_modes);
         l->r = blocks_transposed(&l->p);
         blocks ap = blocks_product(&l->a, &l->p);
         *next = blocks_product(&l->r, &ap);
@@ -104,8 +103,7 @@ static bool factorise(multigrid *m, bool *definite, err *e)
             }
         m->start[j + 1] = count;
     }
-    return linear_create(n, m->start, m->row, 1, &m->direct, e) &&
-           linear_factor(m->direct, m->value, 0, definite, e);
+    return linear_create(n, m->start, m->row, 1, &m->direct, e) && linear_factor(m->direct, m->value, 0, definite, e);
 }
 
 bool multigrid_make(const blocks *a, const double *modes, multigrid **out, bool *definite, err *e)
@@ -130,8 +128,8 @@ bool multigrid_make(const blocks *a, const double *modes, multigrid **out, bool 
         l->inverse = NEW_ARRAY(float, 9 * (size_t)l->a.rows);
         for (int64_t i = 0; i < 9 * (int64_t)l->a.rows; i++) l->inverse[i] = (float)inverse[i];
         if (*definite) smoother_make(l);
-        more = *definite && coarsen(l, m->level_count == 1 ? 1 : 2, own_modes ? own_modes : modes, inverse,
-                                    &l[1].a, &next_modes);
+        more = *definite &&
+               coarsen(l, m->level_count == 1 ? 1 : 2, own_modes ? own_modes : modes, inverse, &l[1].a, &next_modes);
         if (more) {
             blocks_keep_single(&l->a);
             free(own_modes);

@@ -97,8 +97,7 @@ double *node_blocks_modes(const node_blocks *f, const boundary *b, const double 
 {
     double *modes = NEW_ARRAY(double, 18 * (size_t)f->block_count), *z = NEW_ARRAY(double, f->unknown_count);
     double *y = NEW_ARRAY(double, 3 * (size_t)b->node_count), centre[3] = {0};
-    for (int32_t v = 0; v < b->node_count; v++)
-        vec_axpy(centre, 1.0 / b->node_count, x + 3 * (size_t)v, centre);
+    for (int32_t v = 0; v < b->node_count; v++) vec_axpy(centre, 1.0 / b->node_count, x + 3 * (size_t)v, centre);
     for (int mode = 0; mode < 6; mode++) {
         double axis[3] = {mode % 3 == 0, mode % 3 == 1, mode % 3 == 2}, arm[3], move[3];
         for (size_t v = 0; v < (size_t)b->node_count; v++) {

@@ -9,18 +9,14 @@
 typedef struct part {
     tetmesh mesh;
     attach_map attach;
-    int32_t *node, *local,
-        *tet;      /* [part nodes] in the whole; [whole nodes] here or -1; [part tets] in the whole */
-    uint8_t *held; /* [whole nodes] could move, but is left out */
+    int32_t *node, *local, *tet; /* [part nodes] in the whole; [whole nodes] here or -1; [part tets] in the whole */
+    uint8_t *held;               /* [whole nodes] could move, but is left out */
     int32_t held_count;
     contact_setup contact;
     int32_t *upper, *lower, *extra;
 } part;
 
-scene_params scene_params_default(void)
-{
-    return (scene_params){.tolerance_mm = 0.05, .max_rounds = 3};
-}
+scene_params scene_params_default(void) { return (scene_params){.tolerance_mm = 0.05, .max_rounds = 3}; }
 
 void scene_report_free(scene_report *r)
 {
@@ -31,10 +27,8 @@ void scene_report_free(scene_report *r)
 static bool check_params(const scene_params *p, err *e)
 {
     if (p->full) return true;
-    if (!(p->tolerance_mm > 0))
-        return err_set(e, ERR_INPUT, "scene tolerance_mm must be > 0, got %g", p->tolerance_mm);
-    if (p->max_rounds < 1)
-        return err_set(e, ERR_INPUT, "scene max_rounds must be >= 1, got %d", p->max_rounds);
+    if (!(p->tolerance_mm > 0)) return err_set(e, ERR_INPUT, "scene tolerance_mm must be > 0, got %g", p->tolerance_mm);
+    if (p->max_rounds < 1) return err_set(e, ERR_INPUT, "scene max_rounds must be >= 1, got %d", p->max_rounds);
     return true;
 }
 
@@ -42,8 +36,7 @@ static bool check_params(const scene_params *p, err *e)
 static void choose_held(const attach_map *a, const double *estimate, double limit_mm, part *p)
 {
     p->held = NEW_ARRAY(uint8_t, a->node_count);
-    for (int32_t v = 0; v < a->node_count; v++)
-        p->held[v] = a->kind[v] != NODE_TIED && estimate[v] < limit_mm;
+    for (int32_t v = 0; v < a->node_count; v++) p->held[v] = a->kind[v] != NODE_TIED && estimate[v] < limit_mm;
     for (int32_t i = 0; i < a->pair_count; i++) {
         const int32_t *pair = a->pair + 2 * (size_t)i;
         if (!p->held[pair[0]] || !p->held[pair[1]]) p->held[pair[0]] = p->held[pair[1]] = 0;
@@ -70,11 +63,9 @@ static void choose_tets(const tetmesh *m, const attach_map *a, part *p)
         p->local[v] = p->local[v] ? nodes++ : -1;
     }
     p->mesh = tetmesh_new(nodes, tets);
-    for (int32_t i = 0; i < nodes; i++)
-        vec_copy(m->xyz + 3 * (size_t)p->node[i], p->mesh.xyz + 3 * (size_t)i);
+    for (int32_t i = 0; i < nodes; i++) vec_copy(m->xyz + 3 * (size_t)p->node[i], p->mesh.xyz + 3 * (size_t)i);
     for (int32_t i = 0; i < tets; i++) {
-        for (size_t k = 0; k < 4; k++)
-            p->mesh.tet[4 * (size_t)i + k] = p->local[m->tet[4 * (size_t)p->tet[i] + k]];
+        for (size_t k = 0; k < 4; k++) p->mesh.tet[4 * (size_t)i + k] = p->local[m->tet[4 * (size_t)p->tet[i] + k]];
         p->mesh.region[i] = m->region[p->tet[i]];
     }
 }
@@ -93,8 +84,7 @@ static void choose_attachments(const attach_map *a, part *p)
     p->attach.pair_count = 0;
     for (int32_t i = 0; i < a->pair_count; i++) {
         int32_t up = p->local[a->pair[2 * (size_t)i]], low = p->local[a->pair[2 * (size_t)i + 1]];
-        if (up < 0 || low < 0 || p->attach.kind[up] != NODE_FREE || p->attach.kind[low] != NODE_FREE)
-            continue;
+        if (up < 0 || low < 0 || p->attach.kind[up] != NODE_FREE || p->attach.kind[low] != NODE_FREE) continue;
         p->attach.pair[2 * p->attach.pair_count] = up;
         p->attach.pair[2 * p->attach.pair_count + 1] = low;
         vec_copy(a->pair_normal + 3 * (size_t)i, p->attach.pair_normal + 3 * (size_t)p->attach.pair_count++);
@@ -122,8 +112,7 @@ static void choose_contact(const contact_setup *s, part *p)
     p->contact = *s;
     p->upper = keep_faces(p, s->upper_lip, s->upper_count, &p->contact.upper_count);
     p->lower = keep_faces(p, s->lower_lip, s->lower_count, &p->contact.lower_count);
-    if (!p->contact.upper_count || !p->contact.lower_count)
-        p->contact.upper_count = p->contact.lower_count = 0;
+    if (!p->contact.upper_count || !p->contact.lower_count) p->contact.upper_count = p->contact.lower_count = 0;
     p->extra = NEW_ARRAY(int32_t, s->extra_count);
     p->contact.extra_count = 0;
     for (int32_t i = 0; i < s->extra_count; i++)
@@ -201,8 +190,7 @@ static bool solve_part(const equilibrium_problem *problem, const part *p, const 
 }
 
 /* What was asked of the held nodes takes the place of what was expected of them. */
-static void learn(const equilibrium_problem *problem, const part *p, scene_report *r, double *estimate,
-                  double *x)
+static void learn(const equilibrium_problem *problem, const part *p, scene_report *r, double *estimate, double *x)
 {
     r->error_mm = 0;
     for (size_t v = 0; v < (size_t)problem->mesh->vertex_count; v++) {
@@ -256,8 +244,7 @@ bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, 
     for (r.rounds = 1; ok && !done; r.rounds++) {
         part p = {0};
         equilibrium next = {0};
-        choose_held(problem->attach, estimate, r.rounds == 1 ? scene->tolerance_mm : scene->tolerance_mm / 2,
-                    &p);
+        choose_held(problem->attach, estimate, r.rounds == 1 ? scene->tolerance_mm : scene->tolerance_mm / 2, &p);
         choose_tets(problem->mesh, problem->attach, &p);
         r.full = scene->full || p.held_count == 0 || p.mesh.tet_count == 0 ||
                  (r.rounds > 1 && r.rounds == scene->max_rounds);
@@ -284,8 +271,7 @@ bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, 
                 learn(problem, &p, &r, estimate, start);
                 from = start;
             }
-            done =
-                next.outcome != SOLVED || r.error_mm <= scene->tolerance_mm || r.rounds == scene->max_rounds;
+            done = next.outcome != SOLVED || r.error_mm <= scene->tolerance_mm || r.rounds == scene->max_rounds;
         }
         part_free(&p);
         if (ok) carry_cost(&q, &next);

@@ -32,15 +32,13 @@ static void held_forces(assembly *a, const boundary *b, const uint8_t *held, con
     free(force);
 }
 
-static void respond(assembly *a, boundary *b, const tetmesh *m, const uint8_t *held, const double *x,
-                    double *error)
+static void respond(assembly *a, boundary *b, const tetmesh *m, const uint8_t *held, const double *x, double *error)
 {
     size_t n = (size_t)a->unknown_count;
     double *g = NEW_ARRAY(double, n), *z = NEW_ARRAY(double, n), *diagonal = NEW_ARRAY(double, n),
            *still = NEW_ARRAY(double, 3 * (size_t)a->node_count);
     held_forces(a, b, held, x, g);
-    assembly_stiffness(a, m->xyz,
-                       PROJECTION_NONE); /* at rest it is positive definite, and near rest it is needed */
+    assembly_stiffness(a, m->xyz, PROJECTION_NONE); /* at rest it is positive definite, and near rest it is needed */
     assembly_matrix(a, b);
     for (size_t j = 0; j < n; j++) diagonal[j] = a->value[a->column_start[j]];
     conjugate_solve((int64_t)n, apply, a, diagonal, g, z, rel_tol, max_iterations);
@@ -54,8 +52,7 @@ static void respond(assembly *a, boundary *b, const tetmesh *m, const uint8_t *h
     free(still);
 }
 
-bool scene_check(const equilibrium_problem *problem, const uint8_t *held, const double *x, double *error,
-                 err *e)
+bool scene_check(const equilibrium_problem *problem, const uint8_t *held, const double *x, double *error, err *e)
 {
     elements el = {0};
     boundary b = {0};

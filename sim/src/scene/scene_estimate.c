@@ -34,8 +34,7 @@ static void weigh_tet(const tetmesh *m, int32_t t, double *weight)
         vec_sub(x[f[2]], x[f[0]], w);
         vec_cross(u, w, area[k]);
     }
-    for (int k = 0; k < 6; k++)
-        weight[k] = fmax(0, -vec_dot(area[edge_of[k][0]], area[edge_of[k][1]]) / (6 * six));
+    for (int k = 0; k < 6; k++) weight[k] = fmax(0, -vec_dot(area[edge_of[k][0]], area[edge_of[k][1]]) / (6 * six));
 }
 
 static void apply(const double *x, double *out, void *context)
@@ -58,18 +57,15 @@ static void apply(const double *x, double *out, void *context)
     }
 }
 
-void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SEGMENT_COUNT],
-                    double *estimate)
+void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SEGMENT_COUNT], double *estimate)
 {
     spread s = {m, a, NEW_ARRAY(double, 6 * (size_t)m->tet_count), NEW_ARRAY(double, a->pair_count)};
-    double largest = 0, *diagonal = NEW_ARRAY(double, m->vertex_count),
-           *b = NEW_ARRAY(double, m->vertex_count);
+    double largest = 0, *diagonal = NEW_ARRAY(double, m->vertex_count), *b = NEW_ARRAY(double, m->vertex_count);
     for (int32_t t = 0; t < m->tet_count; t++) {
         weigh_tet(m, t, s.edge + 6 * (size_t)t);
         for (int k = 0; k < 6; k++)
             for (int end = 0; end < 2; end++)
-                diagonal[m->tet[4 * (size_t)t + (size_t)edge_of[k][end]]] +=
-                    s.edge[6 * (size_t)t + (size_t)k];
+                diagonal[m->tet[4 * (size_t)t + (size_t)edge_of[k][end]]] += s.edge[6 * (size_t)t + (size_t)k];
     }
     for (int32_t p = 0; p < a->pair_count; p++) { /* lips that touch move together */
         int32_t i = a->pair[2 * (size_t)p], j = a->pair[2 * (size_t)p + 1];
@@ -84,8 +80,7 @@ void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SE
         rigid_apply(&motion[a->segment[v]], m->xyz + 3 * (size_t)v, at);
         rigid_apply(&motion[SEGMENT_CRANIUM], m->xyz + 3 * (size_t)v, rest);
         double moved = vec_distance(at, rest);
-        if (a->kind[v] == NODE_SLIDING && !(moved > 0))
-            continue; /* on a bone that stays: can be dragged along it */
+        if (a->kind[v] == NODE_SLIDING && !(moved > 0)) continue; /* on a bone that stays: can be dragged along it */
         estimate[v] = moved;
         largest = fmax(largest, moved);
         diagonal[v] = 0;
@@ -95,8 +90,7 @@ void scene_estimate(const tetmesh *m, const attach_map *a, const rigid motion[SE
     for (int32_t v = 0; v < m->vertex_count; v++) b[v] = -b[v];
     conjugate_solve(m->vertex_count, apply, &s, diagonal, b, rest, 1e-5, 1000);
     for (int32_t v = 0; v < m->vertex_count; v++)
-        if (diagonal[v] > 0)
-            estimate[v] = fmin(largest, reach * sqrt(largest * fmax(0, estimate[v] + rest[v])));
+        if (diagonal[v] > 0) estimate[v] = fmin(largest, reach * sqrt(largest * fmax(0, estimate[v] + rest[v])));
     free(rest);
     free(b);
     free(diagonal);

@@ -7,23 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_unit(const double n[3])
-{
-    return fabs(vec_norm(n) - 1) < 1e-6;
-}
+static bool is_unit(const double n[3]) { return fabs(vec_norm(n) - 1) < 1e-6; }
 
 static bool check_map(const tetmesh *m, const attach_map *a, err *e)
 {
     if (a->node_count != m->vertex_count)
-        return err_set(e, ERR_INPUT, "the attachment map has %d nodes, the mesh %d", a->node_count,
-                       m->vertex_count);
+        return err_set(e, ERR_INPUT, "the attachment map has %d nodes, the mesh %d", a->node_count, m->vertex_count);
     for (int32_t v = 0; v < a->node_count; v++) {
-        if (a->kind[v] > NODE_SLIDING)
-            return err_set(e, ERR_INPUT, "node %d has no known kind (%d)", v, a->kind[v]);
+        if (a->kind[v] > NODE_SLIDING) return err_set(e, ERR_INPUT, "node %d has no known kind (%d)", v, a->kind[v]);
         if (a->kind[v] == NODE_FREE) continue;
         if (a->segment[v] < 0 || a->segment[v] >= SEGMENT_COUNT)
-            return err_set(e, ERR_INPUT, "node %d hangs on segment %d, which does not exist", v,
-                           a->segment[v]);
+            return err_set(e, ERR_INPUT, "node %d hangs on segment %d, which does not exist", v, a->segment[v]);
         if (a->kind[v] == NODE_SLIDING && !is_unit(a->normal + 3 * (size_t)v))
             return err_set(e, ERR_INPUT, "the normal of sliding node %d is not of length 1", v);
     }
@@ -91,8 +85,7 @@ bool boundary_make(const tetmesh *m, const attach_map *a, boundary *out, err *e)
     for (int32_t v = 0; v < n; v++)
         for (int k = 0; k < 3; k++) {
             bool prescribed = a->kind[v] == NODE_TIED || (a->kind[v] == NODE_SLIDING && k == 0);
-            bool shared =
-                k == 0 && partner[v] >= 0 && partner[v] < v; /* numbered at the other node already */
+            bool shared = k == 0 && partner[v] >= 0 && partner[v] < v; /* numbered at the other node already */
             b.unknown[3 * (size_t)v + k] = prescribed ? -1
                                            : shared   ? b.unknown[3 * (size_t)partner[v]]
                                                       : b.unknown_count++;

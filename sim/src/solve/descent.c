@@ -74,8 +74,7 @@ static void refresh(descent *d)
 
 /* A direction that leads nowhere is tried again with a safer matrix, conjugate gradients that get nowhere
  * with factors from here on. *ok false: there is no matrix to step with; *step 0: no step is good. */
-static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, double *factor_s, bool *ok,
-                      err *e)
+static bool take_step(descent *d, double *step, hessian_kind *kind, int *cg, double *factor_s, bool *ok, err *e)
 {
     d->inexact = d->inexact && !have_crawled(d);
     *kind = !d->inexact && direct_reusable(d) ? HESSIAN_REUSED : HESSIAN_TRUE;
@@ -114,8 +113,7 @@ static bool renews_each_time(const contact *c, int iteration)
  * them, the contact forces are what it is measured by. */
 static bool is_solved(descent *d)
 {
-    static const double near =
-        100; /* tolerances: what rounding does to the elastic forces is asked from here on */
+    static const double near = 100; /* tolerances: what rounding does to the elastic forces is asked from here on */
     const contact *c = d->touching ? d->t->touch : NULL;
     if (c) d->tolerance = fmax(fmax(d->asked, contact_force_noise(c, d->x)), d->rel_tol * contact_force(c));
     if (c && d->residual > d->tolerance && d->residual < near * d->tolerance)
@@ -264,8 +262,7 @@ bool descent_run(descent *d, double load, double rel_tol, bool free_first, bool 
     /* contact changes the matrix too much from step to step for a preconditioner to last */
     bool factors = d->params->linear == LINEAR_AUTO && t->b.unknown_count <= FACTORS_UP_TO;
     if (d->touching && factors) d->inexact = false;
-    if (!rest && d->params->predictor == PREDICT_ELASTIC &&
-        !start_predict(d, x_start, &factor_s, &cg, &ok, e))
+    if (!rest && d->params->predictor == PREDICT_ELASTIC && !start_predict(d, x_start, &factor_s, &cg, &ok, e))
         return false;
     point_record(d, 0, 0, HESSIAN_TRUE, factor_s, cg);
     if (!ok || !isfinite(d->energy)) {

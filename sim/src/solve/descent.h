@@ -24,8 +24,7 @@ struct solver {
     multigrid *grid;
     double grid_rate; /* iterations per digit with the matrix it was made of; 0: not known yet */
     double grid_loss; /* iterations lost since, for its age */
-    double
-        *matrix_x; /* [3*nodes] where the assembly's node blocks are those of the elastic energy, else NULL */
+    double *matrix_x; /* [3*nodes] where the assembly's node blocks are those of the elastic energy, else NULL */
     double prepare_s;
 };
 
@@ -83,8 +82,7 @@ void point_accept(descent *d, double energy);
 /* Energy, force and residual of the present iterate, as after a change of what counts. */
 void point_measure(descent *d);
 /* Adds the present iterate to the records and tells the caller. */
-void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s,
-                  int cg_iterations);
+void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s, int cg_iterations);
 /* Contacts at x, z that are deeper than was foreseen give way; then both are where they get to. Returns the
  * farthest move, mm; see contact_yield. */
 double point_yield(descent *d, double *x, double *z);
@@ -97,8 +95,7 @@ double point_line_search(descent *d);
 double start_reference(descent *d);
 /* Adds to z the linear response, about x_start, to carrying the prescribed nodes from x_start to x. *ok
  * false: the start or its end has no energy. */
-bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_iterations, bool *ok,
-                   err *e) MUST_CHECK;
+bool start_predict(descent *d, const double *x_start, double *seconds, int *cg_iterations, bool *ok, err *e) MUST_CHECK;
 
 /* direct.c */
 /* The part of the clamped matrix with which a ladder of blends begins; each rung is twice the one before,
@@ -108,8 +105,7 @@ double direct_first_rung(const descent *d);
 void direct_fill(descent *d, const double *x, projection how);
 /* Factorises at x, from the wanted kind on towards the safer ones. *kind says what it became; *ok false:
  * none. */
-bool direct_factorise(descent *d, const double *x, hessian_kind *kind, bool *ok, double *seconds,
-                      err *e) MUST_CHECK;
+bool direct_factorise(descent *d, const double *x, hessian_kind *kind, bool *ok, double *seconds, err *e) MUST_CHECK;
 /* direction = -(inverse Hessian) g by the factor and the steps since. */
 bool direct_direction(descent *d, err *e) MUST_CHECK;
 /* After point_accept: the old point is in z_new, g_new. */
@@ -120,8 +116,8 @@ bool direct_reusable(const descent *d);
 /* inexact.c */
 /* Makes the matrix at x ready for inexact_solve; kind TRUE or PROJECTED. near_enough: one of a place within
  * 0.01 mm will do. *ok false: it has no preconditioner. */
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok,
-                    double *seconds, err *e) MUST_CHECK;
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok, double *seconds,
+                    err *e) MUST_CHECK;
 /* u = about its inverse times b, the residual rel_tol of b. Where the matrix shows negative curvature u is
  * where the iteration had got to: u.b > 0 still. *ok false: the iteration got nowhere. */
 bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,

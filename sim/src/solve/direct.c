@@ -8,10 +8,7 @@
 static const double least_part = 1.0 / 64; /* below, the true matrix itself is tried */
 
 /* Each rung of the ladder is so many times the one before. */
-static double rung(const descent *d)
-{
-    return d->touching ? 4 : 2;
-}
+static double rung(const descent *d) { return d->touching ? 4 : 2; }
 
 double direct_first_rung(const descent *d)
 {

@@ -10,22 +10,14 @@
 const char *solve_outcome_text(solve_outcome outcome)
 {
     switch (outcome) {
-    case SOLVED:
-        return "solved";
-    case STOPPED_MAX_ITERATIONS:
-        return "stopped: too many iterations";
-    case STOPPED_LINE_SEARCH:
-        return "stopped: no step lowers the energy";
-    case STOPPED_NOT_FINITE:
-        return "stopped: a tet is inverted in a material that forbids it";
-    case STOPPED_SINGULAR:
-        return "stopped: the stiffness matrix cannot be made positive definite";
-    case STOPPED_MAX_HALVINGS:
-        return "stopped: the load step became too small";
-    case STOPPED_PENETRATION:
-        return "stopped: tissue stays too deep in what it touches";
-    case STOPPED_INTERRUPTED:
-        return "interrupted";
+    case SOLVED: return "solved";
+    case STOPPED_MAX_ITERATIONS: return "stopped: too many iterations";
+    case STOPPED_LINE_SEARCH: return "stopped: no step lowers the energy";
+    case STOPPED_NOT_FINITE: return "stopped: a tet is inverted in a material that forbids it";
+    case STOPPED_SINGULAR: return "stopped: the stiffness matrix cannot be made positive definite";
+    case STOPPED_MAX_HALVINGS: return "stopped: the load step became too small";
+    case STOPPED_PENETRATION: return "stopped: tissue stays too deep in what it touches";
+    case STOPPED_INTERRUPTED: return "interrupted";
     }
     assert(0);
     return "";
@@ -49,25 +41,19 @@ solve_params solve_params_default(void)
 static bool check_params(const solve_params *p, err *e)
 {
     if (p->load_steps < 1) return err_set(e, ERR_INPUT, "load_steps must be >= 1, got %d", p->load_steps);
-    if (p->max_halvings < 0)
-        return err_set(e, ERR_INPUT, "max_halvings must be >= 0, got %d", p->max_halvings);
-    if (p->max_iterations < 0)
-        return err_set(e, ERR_INPUT, "max_iterations must be >= 0, got %d", p->max_iterations);
-    if (p->max_step_cuts < 0)
-        return err_set(e, ERR_INPUT, "max_step_cuts must be >= 0, got %d", p->max_step_cuts);
+    if (p->max_halvings < 0) return err_set(e, ERR_INPUT, "max_halvings must be >= 0, got %d", p->max_halvings);
+    if (p->max_iterations < 0) return err_set(e, ERR_INPUT, "max_iterations must be >= 0, got %d", p->max_iterations);
+    if (p->max_step_cuts < 0) return err_set(e, ERR_INPUT, "max_step_cuts must be >= 0, got %d", p->max_step_cuts);
     if (!(p->rel_tol > 0 && p->rel_tol < 1))
         return err_set(e, ERR_INPUT, "rel_tol must lie between 0 and 1, got %g", p->rel_tol);
     if (!(p->intermediate_rel_tol > 0 && p->intermediate_rel_tol < 1))
-        return err_set(e, ERR_INPUT, "intermediate_rel_tol must lie between 0 and 1, got %g",
-                       p->intermediate_rel_tol);
-    if (!(p->max_step_mm > 0))
-        return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
+        return err_set(e, ERR_INPUT, "intermediate_rel_tol must lie between 0 and 1, got %g", p->intermediate_rel_tol);
+    if (!(p->max_step_mm > 0)) return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
     if (p->projection != PROJECTION_CLAMP && p->projection != PROJECTION_ABS)
         return err_set(e, ERR_INPUT, "projection must be clamp or abs");
     if (p->linear != LINEAR_AUTO && p->linear != LINEAR_FACTOR && p->linear != LINEAR_GRADIENTS)
         return err_set(e, ERR_INPUT, "linear must be auto, factor or gradients");
-    if (p->blas_threads < 1)
-        return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", p->blas_threads);
+    if (p->blas_threads < 1) return err_set(e, ERR_INPUT, "blas_threads must be >= 1, got %d", p->blas_threads);
     return true;
 }
 
@@ -78,8 +64,7 @@ static bool make_contact(solver *t, const equilibrium_problem *problem, err *e)
     double young = 0;
     if (!boundary_make(problem->mesh, problem->attach, &checked, e)) return false;
     boundary_free(&checked);
-    for (int32_t i = 0; i < problem->material_count; i++)
-        young = fmax(young, problem->materials[i].material.young_kpa);
+    for (int32_t i = 0; i < problem->material_count; i++) young = fmax(young, problem->materials[i].material.young_kpa);
     if (!contact_make(problem->mesh, problem->attach, problem->contact, young, &t->touch, e)) return false;
     if (problem->contact->held) return true;
     t->loosened = contact_loosened(problem->attach, problem->contact);
@@ -166,22 +151,20 @@ static void move_bones(solver *t, const rigid motion[SEGMENT_COUNT], double load
     if (t->touch) contact_move(t->touch, part, &t->b.guide, t->mesh->xyz);
 }
 
-bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz,
-                  const solve_params *params, equilibrium *out, err *e)
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+                  equilibrium *out, err *e)
 {
     if (!check_params(params, e)) return false;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         double m[16];
         rigid checked;
         rigid_to_matrix(&motion[s], m);
-        if (!rigid_from_matrix(m, &checked, e))
-            return err_prefix(e, "motion of %s", segment_name((segment_id)s));
+        if (!rigid_from_matrix(m, &checked, e)) return err_prefix(e, "motion of %s", segment_name((segment_id)s));
     }
     double begin = clock_s();
     size_t n = 3 * (size_t)t->b.node_count;
     for (size_t i = 0; start_xyz && i < n; i++)
-        if (!isfinite(start_xyz[i]))
-            return err_set(e, ERR_INPUT, "start position of node %zu is not finite", i / 3);
+        if (!isfinite(start_xyz[i])) return err_set(e, ERR_INPUT, "start position of node %zu is not finite", i / 3);
     linear_stats before = t->l ? linear_measure(t->l) : (linear_stats){0};
     equilibrium q = {.node_count = t->b.node_count, .xyz = NEW_ARRAY(double, n), .prepare_s = t->prepare_s};
     double *at_load = COPY_ARRAY(double, t->mesh->xyz, n), *start = NEW_ARRAY(double, n);
@@ -213,8 +196,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         }
         q.loads++;
         double rel_tol = target < 1 ? params->intermediate_rel_tol : params->rel_tol;
-        bool loose = t->touch &&
-                     (t->touch->setup.held && !d.touch_on_the_way ? target >= 1 : q.load_reached == 0) &&
+        bool loose = t->touch && (t->touch->setup.held && !d.touch_on_the_way ? target >= 1 : q.load_reached == 0) &&
                      !from_guess;
         ok = descent_run(&d, target, rel_tol, loose, from_guess && t->touch, start, &outcome, e);
         if (!ok || outcome == STOPPED_INTERRUPTED) break;
@@ -281,8 +263,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     return ok;
 }
 
-bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out,
-                       err *e)
+bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *params, equilibrium *out, err *e)
 {
     solver *t = NULL;
     if (!check_params(params, e) || !solver_create(problem, params->blas_threads, &t, e)) return false;

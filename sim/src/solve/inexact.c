@@ -27,8 +27,7 @@ static bool is_near(const double *a, const double *b, size_t n)
     return true;
 }
 
-bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok,
-                    double *seconds, err *e)
+bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_enough, bool *ok, double *seconds, err *e)
 {
     solver *t = d->t;
     double begin = clock_s();
@@ -68,8 +67,7 @@ static void note_age(solver *t, const cg_result *r)
 }
 
 /* With the present matrix. */
-static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations,
-                      cg_result *r, err *e)
+static bool gradients(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, cg_result *r, err *e)
 {
     solver *t = d->t;
     double begin = clock_s(), *side = NEW_ARRAY(double, 3 * (size_t)t->f.block_count),
@@ -88,8 +86,7 @@ static bool gradients(descent *d, const double *b, double rel_tol, double *u, in
     return fine;
 }
 
-bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok,
-                   err *e)
+bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *cg_iterations, bool *ok, err *e)
 {
     cg_result r;
     if (!gradients(d, b, rel_tol, u, cg_iterations, &r, e)) return false;
@@ -121,8 +118,7 @@ static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result 
     for (*kind = HESSIAN_BLENDED; fine && r->indefinite && *kind == HESSIAN_BLENDED; part *= 2) {
         if (part >= 1) *kind = HESSIAN_PROJECTED;
         d->blend = fmin(part, 1);
-        for (int64_t i = 0; i < entries; i++)
-            mixed[i] = true_value[i] + d->blend * (a->value[i] - true_value[i]);
+        for (int64_t i = 0; i < entries; i++) mixed[i] = true_value[i] + d->blend * (a->value[i] - true_value[i]);
         node_blocks_fill(&t->f, a, mixed, &t->k);
         fine = gradients(d, d->g, forcing(d), d->direction, cg_iterations, r, e);
     }
@@ -138,8 +134,7 @@ bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool 
     if (!*ok) return true;
     if (!gradients(d, d->g, forcing(d), d->direction, cg_iterations, &r, e)) return false;
     note_age(d->t, &r);
-    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e))
-        return false;
+    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e)) return false;
     *ok = r.indefinite || r.reduction < 0.5;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->direction[i] = -d->direction[i];
     return true;

@@ -34,8 +34,7 @@ static void integrate(const double axis[3], double angle, const double v[3], dou
     vec_cross(axis, v, a);
     vec_cross(axis, a, b);
     double half = sin(angle / 2);
-    for (int c = 0; c < 3; c++)
-        out[c] = v[c] + 2 * half * half / angle * a[c] + (angle - sin(angle)) / angle * b[c];
+    for (int c = 0; c < 3; c++) out[c] = v[c] + 2 * half * half / angle * a[c] + (angle - sin(angle)) / angle * b[c];
 }
 
 rigid motion_part(const rigid *whole, double s)

@@ -45,8 +45,7 @@ void point_measure(descent *d)
     d->residual = sqrt(point_dot(d->g, d->g, d->t->b.unknown_count));
 }
 
-void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s,
-                  int cg_iterations)
+void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s, int cg_iterations)
 {
     equilibrium *q = d->out;
     if ((q->record_count & (q->record_count - 1)) == 0) /* room is the next power of two */

@@ -60,11 +60,9 @@ bool restraint_check(const tetmesh *m, const attach_map *a, err *e)
         size[p]++;
         vec_add(centre + 3 * (size_t)p, m->xyz + 3 * (size_t)v, centre + 3 * (size_t)p);
     }
-    for (int32_t p = 0; p < parts; p++)
-        vec_scale(centre + 3 * (size_t)p, 1.0 / size[p], centre + 3 * (size_t)p);
+    for (int32_t p = 0; p < parts; p++) vec_scale(centre + 3 * (size_t)p, 1.0 / size[p], centre + 3 * (size_t)p);
     for (int32_t v = 0; v < n; v++)
-        reach[part[v]] =
-            fmax(reach[part[v]], vec_distance(m->xyz + 3 * (size_t)v, centre + 3 * (size_t)part[v]));
+        reach[part[v]] = fmax(reach[part[v]], vec_distance(m->xyz + 3 * (size_t)v, centre + 3 * (size_t)part[v]));
     for (int32_t v = 0; v < n; v++) {
         static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         double p[3];
@@ -78,8 +76,7 @@ bool restraint_check(const tetmesh *m, const attach_map *a, err *e)
         double value[6], Q[36];
         symmetric_eigen(6, gram + 36 * (size_t)p, value, Q);
         int free_moves = 0;
-        for (int k = 0; k < 6; k++)
-            free_moves += !(value[k] > 1e-8); /* rows are of order one: 1e-4 in length */
+        for (int k = 0; k < 6; k++) free_moves += !(value[k] > 1e-8); /* rows are of order one: 1e-4 in length */
         if (free_moves == 0) continue;
         const double *c = centre + 3 * (size_t)p;
         err_set(e, ERR_GEOMETRY,

@@ -17,8 +17,7 @@ double start_reference(descent *d)
         else
             vec_copy(t->b.origin + 3 * (size_t)v, p);
     }
-    if (isfinite(point_evaluate(d, d->x_new, d->force_new, d->g_new)))
-        return sqrt(point_dot(d->g_new, d->g_new, n));
+    if (isfinite(point_evaluate(d, d->x_new, d->force_new, d->g_new))) return sqrt(point_dot(d->g_new, d->g_new, n));
     /* no energy there (a model that forbids inversion): the linear response instead */
     double *carried = NEW_ARRAY(double, 3 * (size_t)t->b.node_count);
     for (size_t i = 0; i < 3 * (size_t)t->b.node_count; i += 3) {
