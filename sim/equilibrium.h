@@ -1,4 +1,4 @@
-/* newton: the shape of the tissue in equilibrium once the bones have moved.
+/* equilibrium: the shape of the tissue in equilibrium once the bones have moved.
  *
  * Minimises the elastic energy over the unknowns of `boundary`.
  * Large meshes: inexact Newton steps (Eisenstat & Walker 1996) by conjugate gradients, preconditioned by
@@ -42,7 +42,7 @@ typedef enum hessian_kind {
     HESSIAN_SHIFTED /* projected and shifted */
 } hessian_kind;
 
-typedef struct newton_record {
+typedef struct solve_record {
     double load;        /* 0..1 */
     int iteration;      /* from 1 at each load; 0: the start */
     double residual_mn; /* after the step: norm of the force on the unknowns */
@@ -54,7 +54,7 @@ typedef struct newton_record {
     double min_j;
     int32_t inverted_count;
     bool contact; /* counted; false: without contact, or phase A */
-} newton_record;
+} solve_record;
 
 typedef enum predictor {
     PREDICT_RIGID,  /* free nodes follow the guide of `boundary` */
@@ -84,7 +84,7 @@ typedef struct solve_params {
     bool reuse_factor;                  /* false: factorise in each iteration */
     int blas_threads;                   /* 1: the same bits whatever the machine is doing; see linear.h */
     bool (*interrupted)(void *context); /* NULL or asked in each iteration */
-    void (*progress)(const newton_record *record, void *context); /* NULL or told after each iteration */
+    void (*progress)(const solve_record *record, void *context); /* NULL or told after each iteration */
     void *context;
 } solve_params;
 
@@ -106,7 +106,7 @@ typedef struct equilibrium {
     int32_t node_count;
     double *xyz; /* [3*node_count] mm; of the last iterate where not SOLVED */
     int32_t record_count;
-    newton_record *record; /* [record_count] every iteration of every load, failed ones too */
+    solve_record *record; /* [record_count] every iteration of every load, failed ones too */
     int iterations, factorisations, cg_iterations, preconditioners, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;

@@ -1,4 +1,5 @@
 /* gnathos import: a case folder from surfaces, or from a label map and a CT. */
+#include "app/cli/command.h"
 #include "app/planner/patient/import.h"
 #include "geometry/write_whole.h"
 #include <math.h>

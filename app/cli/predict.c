@@ -5,6 +5,7 @@
 #include "app/planner/judge/plan_audit.h"
 #include "app/planner/predict/plan_contact.h"
 #include "app/planner/predict/plan_tissue.h"
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #if GNATHOS_WITH_RENDER
@@ -14,7 +15,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 struct input {
     command_options common;
@@ -63,20 +63,13 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     }
 }
 
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static bool was_interrupted(void *context)
 {
     (void)context;
     return command_interrupted();
 }
 
-static void show_iteration(const newton_record *r, void *context)
+static void show_iteration(const solve_record *r, void *context)
 {
     char stage[96];
     snprintf(stage, sizeof stage, "solving: load %.2f, iteration %d, residual %.2e mN", r->load, r->iteration,
@@ -133,18 +126,18 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
 static bool write_all(const struct input *in, outcome *o, output_dir *dir, err *e)
 {
     bool ok = true;
-    double start = seconds();
+    double start = clock_s();
     if (o->points) {
         command_progress_at(&in->common, "writing the meshes", 0.8);
         ok = outcome_write_meshes(o, dir, e);
-        o->write_s = seconds() - start;
+        o->write_s = clock_s() - start;
 #if GNATHOS_WITH_RENDER
         if (ok && !in->no_pictures) {
             command_progress_at(&in->common, "drawing the pictures", 0.85);
             ok = draw(o, dir, e);
         }
 #endif
-        o->pictures_s = seconds() - start - o->write_s;
+        o->pictures_s = clock_s() - start - o->write_s;
     }
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
     if (ok) {
@@ -182,7 +175,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     scene_report scene = {0};
     plan_tissue flesh = {0};
     bone_shapes bones;
-    double start = seconds();
+    double start = clock_s();
     if (!bone_shapes_make(p, &bones, e)) return false;
     bool ready = plan_tissue_make(c, p, moves.move, in->contact == CONTACT_LIPS, &flesh, e);
     if (ready && in->contact == CONTACT_BONES)
@@ -200,7 +193,7 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
                  .solve = &q,
                  .scene = &scene,
                  .prepare_s = prepare_s,
-                 .solve_s = seconds() - start,
+                 .solve_s = clock_s() - start,
                  .limits = &limits,
                  .contact = in->contact};
     *solved = q.outcome == SOLVED;
@@ -252,7 +245,7 @@ int command_predict(int argc, char **argv)
     plan_moves moves;
     prepared p = {0};
     bool solved = false;
-    double start = seconds();
+    double start = clock_s();
     output_dir dir = {0};
     /* a wrong plan or folder is told before the minutes of preparation */
     if (!case_file_load(in.case_path[0], &c, &e) || !landmarks_read(c.landmarks, &points, NULL, &e) ||
@@ -263,7 +256,7 @@ int command_predict(int argc, char **argv)
         return command_fail(&e);
     }
     landmarks_free(&points);
-    bool ok = predict(&in, &c, &p, seconds() - start, &dir, &solved, &e);
+    bool ok = predict(&in, &c, &p, clock_s() - start, &dir, &solved, &e);
     prepared_free(&p);
     if (!ok) {
         output_dir_abandon(&dir);

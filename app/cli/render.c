@@ -1,5 +1,6 @@
 /* gnathos render OUT: pictures of an outcome. */
 #include "app/cli/command.h"
+#include "geometry/clock.h"
 #include "app/planner/predict/outcome_read.h"
 #include "app/pictures/subject.h"
 #include "app/pictures/order.h"
@@ -9,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 struct input {
@@ -144,13 +144,6 @@ static bool read_outcome(const char *folder, drawn *d, err *e)
            outcome_segments_read(folder, &d->record, &d->at_rest, d->move, e);
 }
 
-static double seconds(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static bool draw_order(const struct input *in, gallery *g, const char *folder, json_t *files, err *e)
 {
     int count = order_picture_count(&in->order);
@@ -245,12 +238,11 @@ int command_render(int argc, char **argv)
     char folder[1200];
     snprintf(folder, sizeof folder, "%s%s", in.out ? in.out : in.folder[0], in.out ? "" : "/pictures");
     json_t *files = json_array();
-    double start = seconds(CLOCK_MONOTONIC);
+    double start = clock_s();
     bool ok = read_outcome(in.folder[0], &d, &e);
-    double loaded = seconds(CLOCK_MONOTONIC), cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double loaded = clock_s(), cpu = clock_cpu_s();
     ok = ok && draw(&in, &d, folder, files, &e);
-    if (ok)
-        print(&in, files, loaded - start, seconds(CLOCK_MONOTONIC) - loaded, seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu);
+    if (ok) print(&in, files, loaded - start, clock_s() - loaded, clock_cpu_s() - cpu);
     json_decref(files);
     outcome_record_free(&d.record);
     surface_free(&d.skin_before);

@@ -93,13 +93,13 @@ static bool run_ladder(const struct input *in, study_table *t, err *e)
                    study_rungs[study_reference].name, t->run[study_reference].result.text);
 }
 
-static bool study(const struct input *in, study_task *task, const char *plan_name, err *e)
+static bool study(const struct input *in, study_task *work, const char *plan_name, err *e)
 {
-    study_table t = {.task = task,
+    study_table t = {.task = work,
                      .plan_name = plan_name,
                      .run = NEW_ARRAY(study_run, study_rung_count),
                      .cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN)};
-    bool ok = study_task_key(task, e) && run_ladder(in, &t, e);
+    bool ok = study_task_key(work, e) && run_ladder(in, &t, e);
     if (ok) study_table_make(&t);
     ok = ok && study_write(&t, in->out, e);
     if (ok && in->common.json)
@@ -111,12 +111,12 @@ static bool study(const struct input *in, study_task *task, const char *plan_nam
 }
 
 /* The case's own mesh is needed to know landmarks and frame. */
-static bool ratios(const struct input *in, study_task *task, err *e)
+static bool ratios(const struct input *in, study_task *work, err *e)
 {
     prepared p;
-    if (!prepared_get(task->patient, in->cache, task->watch, &p, e)) return false;
+    if (!prepared_get(work->patient, in->cache, work->watch, &p, e)) return false;
     json_t *record = NULL;
-    bool ok = study_ratios(task, &p, stdout, in->common.json ? &record : NULL, e);
+    bool ok = study_ratios(work, &p, stdout, in->common.json ? &record : NULL, e);
     if (ok && record) command_print_json(record, "study_ratios");
     prepared_free(&p);
     return ok;
@@ -142,13 +142,13 @@ int command_study(int argc, char **argv)
               (in.ratios || plan_moves_load(plan_path, &c, &points, &plan, &moves, &e)) && open_folder(in.out, &e);
     landmarks_free(&points);
     if (!ok) return command_fail(&e);
-    study_task task = {.patient = &c,
+    study_task work = {.patient = &c,
                        .watch = &watch,
                        .load_steps = plan.load_steps,
                        .folder = in.out,
                        .cache = in.cache,
                        .name = "plan"};
-    memcpy(task.motion, moves.move, sizeof task.motion);
-    ok = in.ratios ? ratios(&in, &task, &e) : study(&in, &task, *plan.name ? plan.name : "plan", &e);
+    memcpy(work.motion, moves.move, sizeof work.motion);
+    ok = in.ratios ? ratios(&in, &work, &e) : study(&in, &work, *plan.name ? plan.name : "plan", &e);
     return ok ? 0 : command_fail(&e);
 }

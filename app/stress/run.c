@@ -1,16 +1,9 @@
 /* One case, solved and judged. */
 #include "app/stress/stress.h"
 #include "app/planner/store/child.h"
+#include "geometry/clock.h"
 #include <math.h>
 #include <string.h>
-#include <time.h>
-
-static double now_s(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static stress_result nothing_known(void)
 {
@@ -57,10 +50,10 @@ stress_result stress_solve(const stress_case *c)
     err e = {0};
     r.nodes = s.mesh.vertex_count;
     r.tets = s.mesh.tet_count;
-    double begin = now_s(CLOCK_MONOTONIC), cpu = now_s(CLOCK_PROCESS_CPUTIME_ID);
+    double begin = clock_s(), cpu = clock_cpu_s();
     bool ok = equilibrium_solve(&problem, &s.params, &q, &e);
-    r.seconds = now_s(CLOCK_MONOTONIC) - begin;
-    r.cpu_s = now_s(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    r.seconds = clock_s() - begin;
+    r.cpu_s = clock_cpu_s() - cpu;
     if (!ok) {
         r.kind = STRESS_REFUSED;
         r.code = e.code;

@@ -4,6 +4,7 @@
  * a solve, run.c runs it in a child process with a time limit, verify.c checks a claim of "solved" from the
  * returned positions alone. */
 #pragma once
+#include "app/planner/store/task.h"
 #include "app/stress/shapes.h"
 #include "geometry/json_file.h"
 #include "sim/equilibrium.h"

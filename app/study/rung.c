@@ -3,6 +3,7 @@
 #include "app/planner/store/child.h"
 #include "app/planner/store/pack_file.h"
 #include "app/planner/predict/plan_tissue.h"
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/tissue_refine.h"
@@ -12,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 typedef struct reply {
     bool ok;
@@ -24,13 +24,6 @@ typedef struct job {
     const study_rung *rung;
     const char *path;
 } job;
-
-static double now_s(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 bool study_task_key(study_task *t, err *e)
 {
@@ -65,9 +58,9 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
     snprintf(own, sizeof own, "%s/prepared", t->folder);
     c.tissue.element_mm *= r->coarsening;
     c.tissue.coarse_mm *= r->coarsening;
-    double begin = now_s(CLOCK_MONOTONIC);
+    double begin = clock_s();
     if (!prepared_get(&c, r->coarsening == 1 ? t->cache : own, NULL, p, e)) return false;
-    *meshing_s = p->reused ? 0 : now_s(CLOCK_MONOTONIC) - begin;
+    *meshing_s = p->reused ? 0 : clock_s() - begin;
     for (int k = 0; k < r->refined; k++) {
         tissue fine;
         embedding skin;
@@ -112,11 +105,11 @@ static bool solve(const study_task *t, const study_rung *r, const prepared *p, e
                           flesh.material[0].material.young_kpa, &touch);
         problem.contact = &touch.setup;
     }
-    double wall = now_s(CLOCK_MONOTONIC), cpu = now_s(CLOCK_PROCESS_CPUTIME_ID);
+    double wall = clock_s(), cpu = clock_cpu_s();
     scene_report left_out = {0};
     ok = ok && scene_solve(&problem, &needs, &params, q, &left_out, e);
-    out->wall_s = now_s(CLOCK_MONOTONIC) - wall;
-    out->cpu_s = now_s(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    out->wall_s = clock_s() - wall;
+    out->cpu_s = clock_cpu_s() - cpu;
     scene_report_free(&left_out);
     plan_contact_free(&touch);
     bone_shapes_free(&bones);

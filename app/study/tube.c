@@ -4,13 +4,13 @@
  * the place r(R) and the turn g(R) of each shell, solved on 1920 shells. */
 #include "app/study/study.h"
 #include "app/planner/store/child.h"
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { SHELLS = 1920 };
 static const double inner = 10, outer = 20, turn = 0.45;
@@ -196,11 +196,9 @@ static void work(void *context, void *result)
     problem.motion[SEGMENT_MAXILLA] = rigid_rotation((double[3]){0}, (double[]){0, 0, 1}, turn);
     solve_params params = solve_params_default();
     equilibrium q = {0};
-    struct timespec t0, t1;
-    clock_gettime(CLOCK_MONOTONIC, &t0);
+    double begin = clock_s();
     ok = ok && equilibrium_solve(&problem, &params, &q, &e);
-    clock_gettime(CLOCK_MONOTONIC, &t1);
-    row.wall_s = (double)(t1.tv_sec - t0.tv_sec) + 1e-9 * (double)(t1.tv_nsec - t0.tv_nsec);
+    row.wall_s = clock_s() - begin;
     row.solved = ok && q.outcome == SOLVED;
     row.unknowns = q.unknown_count;
     row.iterations = q.iterations;
@@ -208,17 +206,17 @@ static void work(void *context, void *result)
     memcpy(result, &row, sizeof row);
 }
 
-bool study_tubes(const study_task *task, study_tube out[STUDY_TUBES], err *e)
+bool study_tubes(const study_task *t, study_tube out[STUDY_TUBES], err *e)
 {
     static const double poisson[2] = {0.45, 0.49};
     for (int i = 0; i < STUDY_TUBES; i++) {
         study_tube row = {
             .cells = 4 << i % 3, .average = i / 3 % 2, .poisson = poisson[i / 6], .error_mm = (double)NAN};
-        job j = {task, &row};
+        job j = {t, &row};
         child_use use;
-        if (child_run(task->watch, work, &j, &row, sizeof row, 600, &use) == CHILD_INTERRUPTED)
+        if (child_run(t->watch, work, &j, &row, sizeof row, 600, &use) == CHILD_INTERRUPTED)
             return err_set(e, ERR_INTERRUPTED, "interrupted; what is done is kept in %s, and the same command goes on",
-                           task->folder);
+                           t->folder);
         out[i] = row;
     }
     return true;

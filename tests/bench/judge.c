@@ -3,6 +3,7 @@
  * builds can be compared; FILE gets every value. */
 #include "app/planner/judge/judge.h"
 #include "geometry/mem.h"
+#include "geometry/clock.h"
 #include "geometry/parallel.h"
 #include <stdint.h>
 #include <stdio.h>
@@ -16,20 +17,13 @@ typedef struct work {
     double *cpu_s;
 } work;
 
-static double seconds(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void run(int64_t begin, int64_t end, void *context)
 {
     work *w = context;
     for (int64_t i = begin; i < end; i++) {
-        double start = seconds(CLOCK_THREAD_CPUTIME_ID); /* threads that wait do not count */
+        double start = clock_read_s(CLOCK_THREAD_CPUTIME_ID); /* threads that wait do not count */
         judge_plan(w->j, &w->moves[i], &w->out[i]);
-        w->cpu_s[i] = seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+        w->cpu_s[i] = clock_read_s(CLOCK_THREAD_CPUTIME_ID) - start;
     }
 }
 
@@ -70,12 +64,12 @@ int main(int argc, char **argv)
         fprintf(stderr, "bench_judge CASE [COUNT]: %s\n", e.text);
         return 1;
     }
-    double start = seconds(CLOCK_MONOTONIC);
+    double start = clock_s();
     if (!judge_create(&c, &p, &j, &e)) {
         fprintf(stderr, "%s\n", e.text);
         return 1;
     }
-    double made = seconds(CLOCK_MONOTONIC), cpu = 0;
+    double made = clock_s(), cpu = 0;
     work w = {.j = j, .out = NEW_ARRAY(judgement, count), .cpu_s = NEW_ARRAY(double, count)};
     plan_moves *moves = NEW_ARRAY(plan_moves, count);
     for (int i = 0; i < count; i++) {
@@ -96,7 +90,7 @@ int main(int argc, char **argv)
     }
     w.moves = moves;
     parallel_for(count, 1, run, &w);
-    double wall = seconds(CLOCK_MONOTONIC) - made;
+    double wall = clock_s() - made;
     for (int i = 0; i < count; i++) cpu += w.cpu_s[i];
     int level[4] = {0}, reason[LIMIT_COUNT] = {0};
     uint64_t sum = 14695981039346656037u;

@@ -206,7 +206,7 @@ static void newton_converges_quadratically(void **state)
     equilibrium q = solve(&s, &params);
     assert_int_equal(q.outcome, SOLVED);
     assert_true(q.iterations <= 6);
-    const newton_record *last = &q.record[q.record_count - 1];
+    const solve_record *last = &q.record[q.record_count - 1];
     double r0 = last[-2].residual_mn / q.reference_mn, r1 = last[-1].residual_mn / q.reference_mn;
     assert_true(r1 < 10 * pow(r0, 1.6));
     equilibrium_free(&q);

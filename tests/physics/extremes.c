@@ -146,7 +146,7 @@ static void a_failed_load_is_tried_again_in_smaller_steps(void **state)
 }
 
 static bool stop_at_third(void *context) { return ++*(int *)context == 3; }
-static void count_record(const newton_record *r, void *context)
+static void count_record(const solve_record *r, void *context)
 {
     (void)r;
     (void)context;

@@ -1,18 +1,11 @@
 #include "app/planner/bounds/audit.h"
+#include "geometry/clock.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { COARSE = 2 /* spacings between the points that are judged first */ };
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 double audit_value(const audit *a, int which, double steps) { return a->base_value[which] + steps * a->step; }
 
@@ -179,7 +172,7 @@ static bool keep_point(const sample *s, void *context, err *e)
 static void tell(int64_t judged, void *context)
 {
     audit *a = context;
-    double now = seconds();
+    double now = clock_s();
     if (!a->progress || now - a->told_s < 1) return;
     a->told_s = now;
     int64_t expected = a->expected > judged ? a->expected : judged + 1;
@@ -249,7 +242,7 @@ bool audit_bones(audit *a, journal *j, err *e)
 {
     a->journal = j;
     a->points.params = judging(a);
-    a->start_s = seconds();
+    a->start_s = clock_s();
     int64_t left = 0;
     for (int i = 0; i < a->settings.request_count; i++) left += guess(a, &a->settings.request[i]);
     for (int i = 0; i < a->settings.request_count; i++) {

@@ -1,25 +1,18 @@
 #include "app/planner/patient/prepared.h"
 #include "app/planner/patient/prepared_report.h"
 #include "app/planner/store/pack_file.h"
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 /* Raise it whenever the way from case to tissue changes: old files are then made anew. */
 static const double format = 2;
 
 static const double skin_reach_mm = 2; /* of a skin vertex from the tets that may carry it */
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
 {
@@ -161,9 +154,9 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
     prepared p = {0};
     anatomy a = {0};
     tissue_report r = {0};
-    double start = seconds();
+    double start = clock_s();
     if (!anatomy_make(c, true, watch, &a, e)) return false;
-    double cut = seconds();
+    double cut = clock_s();
     task_progress(watch, "meshing the soft tissue", 0.4);
     surface bones = surface_joined(&a.skull, &a.mandible);
     tissue_input in = {&a.closed_skin, &bones, &a.segments, &a.points, &a.frame};
@@ -173,7 +166,7 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
         p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
         r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;
         r.skin_gap_max_mm = p.skin_on_tissue.max_gap_mm;
-        p.report = prepared_report(&a, &r, cut - start, seconds() - cut);
+        p.report = prepared_report(&a, &r, cut - start, clock_s() - cut);
         p.frame = a.frame;
         p.points = a.points;
         p.skin = a.skin;

@@ -36,7 +36,7 @@ static json_t *convergence_json(const equilibrium *q)
     json_t *record = json_array();
     static const char *const kind[] = {"true", "reused", "blended", "projected", "shifted"};
     for (int i = 0; i < q->record_count; i++) {
-        const newton_record *r = &q->record[i];
+        const solve_record *r = &q->record[i];
         json_array_append_new(record, json_pack("{sf si sf sf sf sf ss sb sf sf si}", "load", r->load, "iteration",
                                                 r->iteration, "residual_mN", r->residual_mn, "tolerance_mN",
                                                 r->tolerance_mn, "energy_uJ", r->energy_uj, "step", r->step, "hessian",

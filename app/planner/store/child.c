@@ -1,4 +1,5 @@
 #include "app/planner/store/child.h"
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include <math.h>
 #include <poll.h>
@@ -8,15 +9,7 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
-
-static double wall_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static _Noreturn void work(child_body *body, void *context, size_t size, double cpu_limit_s, int to)
 {
@@ -39,7 +32,7 @@ static child_end receive(const task *watch, int from, double deadline, char *res
     size_t have = 0;
     while (have < size) {
         if (task_interrupted(watch)) return CHILD_INTERRUPTED;
-        double left = deadline - wall_s();
+        double left = deadline - clock_s();
         if (left <= 0) return CHILD_LATE;
         struct pollfd wait = {.fd = from, .events = POLLIN};
         if (poll(&wait, 1, (int)(1000 * fmin(left, 0.5)) + 1) <= 0) continue;
@@ -53,7 +46,7 @@ static child_end receive(const task *watch, int from, double deadline, char *res
 child_end child_run(const task *watch, child_body *body, void *context, void *result, size_t size, double cpu_limit_s,
                     child_use *use)
 {
-    double begin = wall_s();
+    double begin = clock_s();
     int way[2], status = 0;
     struct rusage used = {0};
     *use = (child_use){0};
@@ -72,7 +65,7 @@ child_end child_run(const task *watch, child_body *body, void *context, void *re
         if (end == CHILD_LATE || end == CHILD_INTERRUPTED) kill(child, SIGKILL);
         wait4(child, &status, 0, &used);
     }
-    use->wall_s = wall_s() - begin;
+    use->wall_s = clock_s() - begin;
     use->cpu_s = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
                  1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
     use->peak_mb = (double)used.ru_maxrss / 1024;

@@ -1,28 +1,21 @@
 #include "geometry/osteotomy.h"
 #include "geometry/boolean.h"
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/src/cut/cut_plan.h"
 #include "geometry/src/cut/fragments.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 static const double balance_limit = 1e-3;
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Cuts `piece` off *rest and adds to *kerf. */
 static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, segment_id rest_id,
                     const osteotomy_params *p, surface *rest, surface *piece, surface *kerf, cut_report *r, err *e)
 {
     surface shell = {0}, off = {0}, left = {0}, dust = {0};
-    double start = now(), before = surface_volume(rest);
+    double start = clock_s(), before = surface_volume(rest);
     bool ok = boolean_apply(&b->outer, &b->hollow, BOOLEAN_DIFFERENCE, &shell, NULL, e) &&
               boolean_apply(rest, &b->inner, BOOLEAN_INTERSECTION, &off, NULL, e) &&
               boolean_apply(rest, &b->outer, BOOLEAN_DIFFERENCE, &left, NULL, e) &&
@@ -37,7 +30,7 @@ static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, 
                          .piece_mm3 = surface_volume(&off),
                          .rest_mm3 = surface_volume(&left),
                          .kerf_mm3 = surface_volume(&dust),
-                         .seconds = now() - start};
+                         .seconds = clock_s() - start};
         snprintf(c.name, sizeof c.name, "%.31s", name);
         c.error_share = fabs(c.piece_mm3 + c.rest_mm3 + c.kerf_mm3 - before) / before;
         r->balance = GROW_ARRAY(cut_balance, r->balance, r->balance_count + 1);

@@ -205,7 +205,7 @@ static void learn(const equilibrium_problem *problem, const part *p, scene_repor
 static void carry_cost(const equilibrium *before, equilibrium *after)
 {
     int32_t count = before->record_count + after->record_count;
-    newton_record *record = NEW_ARRAY(newton_record, count);
+    solve_record *record = NEW_ARRAY(solve_record, count);
     for (int32_t i = 0; i < count; i++)
         record[i] = i < before->record_count ? before->record[i] : after->record[i - before->record_count];
     free(after->record);

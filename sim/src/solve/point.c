@@ -49,21 +49,21 @@ void point_record(descent *d, int iteration, double step, hessian_kind kind, dou
 {
     equilibrium *q = d->out;
     if ((q->record_count & (q->record_count - 1)) == 0) /* room is the next power of two */
-        q->record = GROW_ARRAY(newton_record, q->record, q->record_count ? 2 * (size_t)q->record_count : 1);
+        q->record = GROW_ARRAY(solve_record, q->record, q->record_count ? 2 * (size_t)q->record_count : 1);
     deformation_extremes ex = assembly_extremes(&d->t->a, d->x, false);
-    newton_record *r = &q->record[q->record_count++];
-    *r = (newton_record){.load = d->load,
-                         .iteration = iteration,
-                         .residual_mn = d->residual,
-                         .tolerance_mn = d->tolerance,
-                         .energy_uj = d->energy,
-                         .step = step,
-                         .hessian = kind,
-                         .cg_iterations = cg_iterations,
-                         .factor_s = factor_s,
-                         .min_j = ex.min_j,
-                         .inverted_count = ex.inverted_count,
-                         .contact = d->touching};
+    solve_record *r = &q->record[q->record_count++];
+    *r = (solve_record){.load = d->load,
+                        .iteration = iteration,
+                        .residual_mn = d->residual,
+                        .tolerance_mn = d->tolerance,
+                        .energy_uj = d->energy,
+                        .step = step,
+                        .hessian = kind,
+                        .cg_iterations = cg_iterations,
+                        .factor_s = factor_s,
+                        .min_j = ex.min_j,
+                        .inverted_count = ex.inverted_count,
+                        .contact = d->touching};
     if (d->params->progress) d->params->progress(r, d->params->context);
 }
 
