@@ -1,7 +1,7 @@
 /* gnathos audit CASE --plan P: one plan by all limits. */
 #include "app/cli/audit_plan.h"
 #include "app/planner/store/output_dir.h"
-#include "app/planner/judge/plan_audit.h"
+#include "app/cli/plan_audit_print.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/worst_places.h"
 #endif

@@ -1,6 +1,9 @@
 /* gnathos audit CASE: how far may each bone be moved, and what stops it? */
 #include "app/cli/audit_space.h"
-#include "app/planner/bounds/write.h"
+#include "app/cli/bounds_print.h"
+#if GNATHOS_WITH_RENDER
+#include "app/pictures/bounds.h"
+#endif
 #include "geometry/mem.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -146,7 +149,7 @@ static bool run(const audit_space_options *in, audit *a, err *e)
 static bool print(const audit_space_options *in, const audit *a, err *e)
 {
     if (!in->common.json) {
-        if (!audit_print(a, e)) return false;
+        if (!bounds_print(a, e)) return false;
         printf("Results in %s\n", in->out);
         return true;
     }

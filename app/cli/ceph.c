@@ -1,6 +1,7 @@
 /* gnathos ceph CASE|OUT: angles and distances of the profile, before and as planned. */
 #include "app/planner/patient/case_file.h"
 #include "app/planner/predict/ceph_report.h"
+#include "app/cli/ceph_print.h"
 #include "app/cli/command.h"
 #include "app/planner/predict/outcome_read.h"
 #include <string.h>
@@ -54,7 +55,7 @@ int command_ceph(int argc, char **argv)
     if (ok && in.common.json)
         command_print_json(json_pack("{so}", "cephalometry", ceph_report_json(&r.before, after, &r.frame)), "ceph");
     else if (ok)
-        ceph_report_print(&r.before, after, &r.frame, in.sex);
+        ceph_print(&r.before, after, &r.frame, in.sex);
     outcome_record_free(&r);
     return ok ? 0 : command_fail(&e);
 }

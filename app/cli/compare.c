@@ -1,6 +1,6 @@
 /* gnathos compare PREDICTED ACTUAL: how far a predicted face lies from the actual one. */
 #include "app/cli/command.h"
-#include "app/planner/predict/face_compare.h"
+#include "app/cli/compare_print.h"
 #include "app/planner/store/output_dir.h"
 #include "geometry/mesh_file.h"
 #if GNATHOS_WITH_RENDER
@@ -138,7 +138,7 @@ int command_compare(int argc, char **argv)
     if (ok && in.common.json)
         command_print_json(face_compare_json(&what, &c), "compare");
     else if (ok)
-        face_compare_print(&c);
+        compare_print(&c);
     face_compare_free(&c);
     return ok ? 0 : command_fail(&e);
 }

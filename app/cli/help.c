@@ -1,5 +1,6 @@
 /* gnathos help [VERB | case | plan | landmarks] */
 #include "app/cli/command.h"
+#include "app/cli/fields_help.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "app/planner/plan/plan_file.h"
 #include "app/planner/store/suggest.h"
@@ -75,13 +76,13 @@ int command_help(int argc, char **argv)
         return 0;
     }
     if (!strcmp(in.topic, "case")) {
-        fields_print(case_fields(), stdout);
+        fields_help(case_fields());
         return 0;
     }
     if (!strcmp(in.topic, "plan")) {
-        fields_print(plan_fields(), stdout);
+        fields_help(plan_fields());
         printf("\n");
-        fields_print(plan_segment_fields(), stdout);
+        fields_help(plan_segment_fields());
         return 0;
     }
     if (!strcmp(in.topic, "landmarks")) {

@@ -1,5 +1,6 @@
 /* gnathos predict CASE --plan P -o OUT: the face after a plan. */
 #include "app/cli/command.h"
+#include "app/cli/outcome_print.h"
 #include "app/planner/predict/judge_tissue.h"
 #include "app/planner/predict/outcome.h"
 #include "app/planner/judge/plan_audit.h"

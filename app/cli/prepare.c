@@ -1,7 +1,7 @@
 /* gnathos prepare CASE: everything that does not depend on a plan, made and kept. */
 #include "app/cli/command.h"
 #include "app/planner/patient/prepared.h"
-#include "app/planner/patient/prepared_report.h"
+#include "app/cli/prepared_print.h"
 #include <stdio.h>
 
 struct input {
@@ -49,7 +49,7 @@ int command_prepare(int argc, char **argv)
             json_pack("{ss sb so}", "hash", p.hash, "reused", p.reused, "prepared", json_incref(p.report)), "prepare");
     else {
         printf("%s: %s, %.16s\n", c.name, p.reused ? "was prepared already" : "prepared", p.hash);
-        prepared_report_print(p.report);
+        prepared_print(p.report);
     }
     prepared_free(&p);
     return 0;

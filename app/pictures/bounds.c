@@ -1,4 +1,4 @@
-#include "app/planner/bounds/write.h"
+#include "app/pictures/bounds.h"
 #include "geometry/mem.h"
 #include "render/chart.h"
 #include "render/png_file.h"

@@ -95,7 +95,6 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e);
 void audit_ray_place(const audit_ray *r, int32_t at[SAMPLE_AXES_MAX]);
 /* [{"limit", "what", "why"}]: the limits that are not judged at the base, and those of the face. */
 bool audit_not_judged(const audit *a, json_t **out, err *e) MUST_CHECK;
-bool audit_print_not_judged(const audit *a, err *e) MUST_CHECK;
 /* The whole judgement of one point. */
 bool audit_judge(const audit *a, const int32_t at[SAMPLE_AXES_MAX], judgement *out, plan_moves *moves,
                  err *e) MUST_CHECK;

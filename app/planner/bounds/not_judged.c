@@ -1,7 +1,5 @@
 /* What an audit says nothing about, so that nothing is fine in silence. */
 #include "app/planner/bounds/audit.h"
-#include <stdio.h>
-#include <string.h>
 
 static void add(json_t *list, limit_id id, const char *why)
 {
@@ -25,23 +23,5 @@ bool audit_not_judged(const audit *a, json_t **out, err *e)
         add(*out, (limit_id)l, "the soft tissue was not asked");
     add(*out, LIMIT_INCISOR_SHOW, face);
     add(*out, LIMIT_LOWER_FACE, face);
-    return true;
-}
-
-bool audit_print_not_judged(const audit *a, err *e)
-{
-    json_t *list, *o;
-    size_t i;
-    if (!audit_not_judged(a, &list, e)) return false;
-    printf("\nnot judged:\n");
-    json_array_foreach(list, i, o)
-    {
-        const char *why = json_string_value(json_object_get(o, "why"));
-        const json_t *after = json_array_get(list, i + 1); /* limits with the same reason stand in one line */
-        bool last = !after || strcmp(json_string_value(json_object_get(after, "why")), why) != 0;
-        printf("%s%s", json_string_value(json_object_get(o, "what")), last ? ": " : "; ");
-        if (last) printf("%s\n", why);
-    }
-    json_decref(list);
     return true;
 }

@@ -1,4 +1,4 @@
-/* write: the results of an audit as files, as a table and in pictures. */
+/* write: the results of an audit, as data and as files. */
 #pragma once
 #include "app/planner/bounds/audit.h"
 #include "app/planner/store/output_dir.h"
@@ -19,10 +19,8 @@ bool audit_bound_of(const audit *a, int request, int end, audit_bound *out, err 
 bool audit_json(const audit *a, json_t **out, err *e) MUST_CHECK;
 /* audit.json, samples.csv, and map_*.csv and .vti of every map. */
 bool audit_write_files(const audit *a, const output_dir *dir, err *e) MUST_CHECK;
-/* map_*.png of every map over two controls. Needs GNATHOS_RENDER. */
-bool audit_write_pictures(const audit *a, const output_dir *dir, err *e) MUST_CHECK;
-/* The table on stdout. */
-bool audit_print(const audit *a, err *e) MUST_CHECK;
+/* How many of the judged points bone and teeth allow. */
+int64_t audit_points_allowed(const audit *a);
 
 /* "map_A_B" in a new string; the caller frees it. */
 char *audit_map_name(const audit *a, int request, const char *ending);

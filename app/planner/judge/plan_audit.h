@@ -1,4 +1,4 @@
-/* plan_audit: one plan judged by all limits, as a table or as JSON. */
+/* plan_audit: one plan judged by all limits. */
 #pragma once
 #include "app/planner/judge/judge.h"
 #include "app/planner/judge/remedy.h"
@@ -15,11 +15,8 @@ void plan_audit_make(const judge *j, const case_file *c, const prepared *p, cons
                      const plan_moves *moves, plan_audit *out);
 /* A stop without an override. */
 bool plan_audit_infeasible(const plan_audit *a);
-void plan_audit_print(const plan_audit *a);
 json_t *plan_audit_json(const plan_audit *a);
 /* {"worst", "decides", "override", "limits": [...]}: for outcomes too. */
 json_t *judgement_json(const judgement *j, const case_file *c, const char *override);
-/* One line for each stop, and how many cautions there are. */
-void judgement_print_brief(const judgement *j, const case_file *c);
 /* True unless a finding stops the plan and it has no override; then e names the first one (ERR_INFEASIBLE). */
 bool judgement_allows(const judgement *j, const case_file *c, const plan_file *plan, err *e) MUST_CHECK;

@@ -1,4 +1,5 @@
 #include "app/planner/patient/limit.h"
+#include <stdio.h>
 
 const limit limit_default[LIMIT_COUNT] = {
 #define X(id, field, unit_, fine0, fine1, stop0, stop1, what_, source_)                                                \
@@ -33,4 +34,16 @@ const char *limit_level_name(limit_level level)
 {
     static const char *const names[] = {"not judged", "fine", "caution", "stop"};
     return names[level];
+}
+
+const char *limit_range_words(const double r[2], char text[LIMIT_WORDS_SIZE])
+{
+    bool low = r[0] > -LIMIT_OPEN, high = r[1] < LIMIT_OPEN;
+    if (low && high)
+        snprintf(text, LIMIT_WORDS_SIZE, "%g to %g", r[0], r[1]);
+    else if (low || high)
+        snprintf(text, LIMIT_WORDS_SIZE, "at %s %g", low ? "least" : "most", low ? r[0] : r[1]);
+    else
+        snprintf(text, LIMIT_WORDS_SIZE, "-");
+    return text;
 }

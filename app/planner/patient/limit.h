@@ -162,3 +162,6 @@ limit_level limit_judge(const limit_range *r, double value);
  * are of something that is never negative: that end does not count. */
 double limit_margin(const limit_range *r, double value);
 const char *limit_level_name(limit_level level); /* "not judged", "fine", "caution", "stop" */
+enum { LIMIT_WORDS_SIZE = 48 };
+/* "3 to 6", "at least 5", "at most 3", "-". */
+const char *limit_range_words(const double r[2], char text[LIMIT_WORDS_SIZE]);

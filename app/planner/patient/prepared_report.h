@@ -9,5 +9,3 @@ json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s
 /* The parts that one repair and that the cuts give. */
 json_t *repair_report_json(const repair_report *r);
 json_t *cuts_report(const cut_report *r);
-/* A table for people. */
-void prepared_report_print(const json_t *report);

@@ -67,8 +67,7 @@ static json_t *depth_json(const bone_depth *d)
                      d->nodes ? segment_name((segment_id)d->segment) : "", "from_skin_mm", d->from_skin_mm);
 }
 
-/* Of the residual with the bones moved; 0 where nothing moves and both are rounding. */
-static double relative_residual(const equilibrium *q)
+double outcome_relative_residual(const equilibrium *q)
 {
     return q->iterations && q->reference_mn > 0 ? q->residual_mn / q->reference_mn : 0;
 }
@@ -79,16 +78,16 @@ static json_t *solve_json(const equilibrium *q)
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (vec_norm(q->segment_force_mn[s]) > 0)
             json_object_set_new(force, segment_name((segment_id)s), vector(q->segment_force_mn[s]));
-    return json_pack("{ss sb si si si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so so}", "outcome",
-                     solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations", q->iterations,
-                     "factorisations", q->factorisations, "cg_iterations", q->cg_iterations, "preconditioners",
-                     q->preconditioners, "loads", q->loads, "halvings", q->halvings, "residual_mN", q->residual_mn,
-                     "initial_residual_mN", q->reference_mn, "relative_residual", relative_residual(q), "tolerance_mN",
-                     q->tolerance_mn, "energy_uJ", q->energy_uj, "segment_force_mN", force, "force_imbalance",
-                     q->imbalance, "inverted_tets", q->extremes.inverted_count, "min_J", q->extremes.min_j, "min_J_tet",
-                     q->extremes.min_j_tet, "unknowns", (json_int_t)q->unknown_count, "factor_entries",
-                     (json_int_t)q->factor_entries, "largest_stretch", q->extremes.max_stretch, "memory_peak_MB",
-                     q->memory_peak_mb, "contact", contact_json(&q->contact), "record", convergence_json(q));
+    return json_pack(
+        "{ss sb si si si si si si sf sf sf sf sf so sf si sf si sI sI sf sf so so}", "outcome",
+        solve_outcome_text(q->outcome), "solved", q->outcome == SOLVED, "iterations", q->iterations, "factorisations",
+        q->factorisations, "cg_iterations", q->cg_iterations, "preconditioners", q->preconditioners, "loads", q->loads,
+        "halvings", q->halvings, "residual_mN", q->residual_mn, "initial_residual_mN", q->reference_mn,
+        "relative_residual", outcome_relative_residual(q), "tolerance_mN", q->tolerance_mn, "energy_uJ", q->energy_uj,
+        "segment_force_mN", force, "force_imbalance", q->imbalance, "inverted_tets", q->extremes.inverted_count,
+        "min_J", q->extremes.min_j, "min_J_tet", q->extremes.min_j_tet, "unknowns", (json_int_t)q->unknown_count,
+        "factor_entries", (json_int_t)q->factor_entries, "largest_stretch", q->extremes.max_stretch, "memory_peak_MB",
+        q->memory_peak_mb, "contact", contact_json(&q->contact), "record", convergence_json(q));
 }
 
 static json_t *landmarks_json(const outcome *o)
@@ -124,8 +123,7 @@ static json_t *ratios_json(const outcome *o)
     return list;
 }
 
-/* How far to trust the result. */
-static const char *trust(contact_kind contact)
+const char *outcome_trust(contact_kind contact)
 {
 #define TRUST(lips)                                                                                                    \
     "The equilibrium is solved to the residual given; the mesh error is not estimated yet, and published predictions " \
@@ -154,7 +152,7 @@ json_t *outcome_json(const outcome *o)
         "not estimated: one mesh was solved; compare runs with other values of tissue.element_mm");
     json_object_set_new(out, "limits", judgement_json(o->limits, o->patient, o->plan->override));
     json_object_set_new(out, "movements", movements_json(o->moves->move, &o->prepared->points, &o->prepared->frame));
-    json_object_set_new(out, "trust", json_string(trust(o->contact)));
+    json_object_set_new(out, "trust", json_string(outcome_trust(o->contact)));
     if (o->points) {
         json_object_set_new(out, "landmarks", landmarks_json(o));
         json_object_set_new(out, "soft_to_hard", ratios_json(o));
@@ -225,8 +223,7 @@ bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e)
     return ok;
 }
 
-/* The most compressed tet at rest: its middle, LPS mm, and how far the skin is from there. */
-static double worst_tet(const outcome *o, double middle[3])
+double outcome_worst_tet(const outcome *o, double middle[3])
 {
     const tetmesh *m = &o->prepared->tissue.mesh;
     const int32_t *node = m->tet + 4 * (size_t)o->solve->extremes.min_j_tet;
@@ -238,59 +235,4 @@ static double worst_tet(const outcome *o, double middle[3])
     for (int32_t v = 0; v < o->prepared->skin.vertex_count; v++)
         away = fmin(away, vec_distance(middle, o->prepared->skin.xyz + 3 * (size_t)v));
     return away;
-}
-
-void outcome_print(const outcome *o)
-{
-    const equilibrium *q = o->solve;
-    soft_ratio r[SOFT_RATIOS_MAX];
-    printf("%s: %s in %d iterations; residual %.1e of the initial one; smallest J %.2f, %d inverted tets, "
-           "largest stretch "
-           "%.2f\n",
-           o->plan->name[0] ? o->plan->name : "plan", solve_outcome_text(q->outcome), q->iterations,
-           relative_residual(q), q->extremes.min_j, q->extremes.inverted_count, q->extremes.max_stretch);
-    printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "", o->solve_s);
-    outcome_scene_print(o);
-    if (q->extremes.inverted_count > 0) {
-        double middle[3], away = worst_tet(o, middle);
-        printf("%d tets are turned inside out, the worst at (%.1f, %.1f, %.1f) mm, %.1f mm from the skin: the shape is "
-               "not to be trusted near there\n",
-               q->extremes.inverted_count, middle[0], middle[1], middle[2], away);
-    }
-    judgement_print_brief(o->limits, o->patient);
-    const contact_report *c = &q->contact;
-    if (c->on)
-        printf("contact%s: %d of %d nodes press on something, %.0f mm2 on bone and %.0f mm2 between the lips, deepest "
-               "%.3f mm, up to %.1f kPa; %d iterations without, %d with contact\n",
-               c->held ? " (lips and mucosa keep in touch)" : "", c->active_nodes, c->nodes, c->bone_area_mm2,
-               c->lip_area_mm2, c->depth_mm, c->pressure_kpa, c->free_iterations, c->contact_iterations);
-    if (c->on && c->passed)
-        printf(
-            "%d nodes of the lining went right through a bone, as between tooth rows that change places: the shape is not to "
-            "be trusted near there\n",
-            c->passed);
-    if (c->on && c->guards)
-        printf("%d nodes are held by planes before a bone that they would else have gone through\n", c->guards);
-    if (c->on && c->lost)
-        printf("%d nodes in bone were given up: on which side of it they belong is not clear\n", c->lost);
-    if (c->on && c->pinched) printf("%d nodes lie where two bones overlap and cannot be out of both\n", c->pinched);
-    if (!o->points) return;
-    const bone_depth *d = o->depth;
-    if (d->nodes)
-        printf("tissue is up to %.2f mm deeper in bone than at rest, over %.0f mm2 (more than 1 mm over %.0f mm2); "
-               "deepest in the %s at (%.1f, %.1f, %.1f) mm, %.1f mm below the skin\n",
-               d->depth_mm, d->area_mm2, d->area_deep_mm2, segment_name((segment_id)d->segment), d->at[0], d->at[1],
-               d->at[2], d->from_skin_mm);
-    int count = soft_ratios(o->prepared, o->points, r);
-    printf("\n%-8s %9s %7s %7s   %-5s %9s %7s %7s   %s\n", "soft", "forward", "up", "left", "hard", "forward", "up",
-           "left", "ratio");
-    for (int i = 0; i < count; i++) {
-        printf("%-8s %9.2f %7.2f %7.2f   %-5s %9.2f %7.2f %7.2f   ", r[i].soft, r[i].soft_mm[0], r[i].soft_mm[1],
-               r[i].soft_mm[2], r[i].hard, r[i].hard_mm[0], r[i].hard_mm[1], r[i].hard_mm[2]);
-        if (isfinite(r[i].ratio))
-            printf("%.2f\n", r[i].ratio);
-        else
-            printf("-\n");
-    }
-    printf("\nAll in mm. %s\n", trust(o->contact));
 }

@@ -31,5 +31,9 @@ json_t *outcome_json(const outcome *o);
  * plan puts them, NAME.tfm for each that moves, tissue.vtu with `displacement`, landmarks_planned.mrk.json.
  */
 bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e) MUST_CHECK;
-/* The table of millimetres and the sentence on how far to trust it. */
-void outcome_print(const outcome *o);
+/* Of the residual with the bones moved; 0 where nothing moves and both are rounding. */
+double outcome_relative_residual(const equilibrium *q);
+/* The most compressed tet at rest: its middle, LPS mm, and how far the skin is from there. */
+double outcome_worst_tet(const outcome *o, double middle[3]);
+/* How far to trust the result, in a sentence. */
+const char *outcome_trust(contact_kind contact);

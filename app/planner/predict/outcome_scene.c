@@ -16,8 +16,7 @@ static double worst_on_skin(const prepared *p, const double *error)
     return worst;
 }
 
-/* Which element the tissue has, and why. */
-static void element_words(const outcome *o, char *out, size_t size)
+void outcome_element_words(const outcome *o, char *out, size_t size)
 {
     const case_material *c = &o->patient->material;
     bool averaged = o->tissue->material[0].material.averaged_kpa > 0;
@@ -33,6 +32,8 @@ static void element_words(const outcome *o, char *out, size_t size)
         snprintf(out, size, "%s: Poisson's ratio %g is %s %g, from where averaging %s", kind, c->poisson,
                  averaged ? "not below" : "below", element_average_from, averaged ? "pays" : "would pay");
 }
+
+double outcome_left_out_mm(const outcome *o) { return worst_on_skin(o->prepared, o->scene->error); }
 
 static json_t *entry(const char *what, const char *why, json_t *skin_error)
 {
@@ -111,7 +112,7 @@ static void list_tissue(const outcome *o, json_t *left_out)
              "solve how far it "
              "would go",
              s->tolerance_mm);
-    json_array_append_new(left_out, entry(what, why, json_real(worst_on_skin(o->prepared, s->error))));
+    json_array_append_new(left_out, entry(what, why, json_real(outcome_left_out_mm(o))));
 }
 
 json_t *outcome_scene_json(const outcome *o)
@@ -119,7 +120,7 @@ json_t *outcome_scene_json(const outcome *o)
     const scene_report *s = o->scene;
     json_t *on = json_array(), *left_out = json_array();
     char element[160], text[200];
-    element_words(o, element, sizeof element);
+    outcome_element_words(o, element, sizeof element);
     snprintf(text, sizeof text, "elastic tissue (Stable Neo-Hookean), %s", element);
     json_array_append_new(on, json_string(text));
     list_contact(o, on, left_out);
@@ -130,19 +131,4 @@ json_t *outcome_scene_json(const outcome *o)
                      o->tissue->material[0].material.averaged_kpa > 0 ? "averaged" : "linear", "full", s->full, "tets",
                      s->tets, "left_out_tets", s->left_out_tets, "tolerance_mm", s->tolerance_mm, "rounds", s->rounds,
                      "tissue_error_mm", s->error_mm, "estimate_s", s->estimate_s, "check_s", s->check_s);
-}
-
-void outcome_scene_print(const outcome *o)
-{
-    const scene_report *s = o->scene;
-    char element[160];
-    element_words(o, element, sizeof element);
-    printf("tissue: %s\n", element);
-    if (s->full)
-        printf("scene: all %d tets are solved for\n", s->tets);
-    else
-        printf("scene: %d of %d tets are left out, which would move less than %.2f mm; that costs the skin "
-               "%.4f mm at most, "
-               "by estimate (--full leaves nothing out)\n",
-               s->left_out_tets, s->tets, s->tolerance_mm, worst_on_skin(o->prepared, s->error));
 }

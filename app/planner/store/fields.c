@@ -37,8 +37,7 @@ const char *fields_value_words(const json_t *value, char *words, size_t size)
     return words;
 }
 
-/* "more than 0 and at most 20 mm" */
-static const char *range_words(const field *r, char *words, size_t size)
+const char *fields_range_words(const field *r, char *words, size_t size)
 {
     const char *unit = r->unit ? r->unit : "", *gap = *unit ? " " : "";
     const char *below = r->high_open ? "less than" : "at most", *above = r->low_open ? "more than" : "at least";
@@ -53,7 +52,7 @@ static const char *range_words(const field *r, char *words, size_t size)
     return words;
 }
 
-static const char *kind_words(const field *r)
+const char *fields_kind_words(const field *r)
 {
     switch (r->kind) {
     case FIELD_VERSION: return "the number 1";
@@ -77,8 +76,8 @@ static bool in_range(const field *r, double v)
 static void wrong_kind(const field *r, const json_file *f, const json_t *v, const char *pointer, issue_list *issues)
 {
     char got[96];
-    fields_issue(f, pointer, issues, "is %s; must be %s%s%s", fields_value_words(v, got, sizeof got), kind_words(r),
-                 r->unit ? " in " : "", r->unit ? r->unit : "");
+    fields_issue(f, pointer, issues, "is %s; must be %s%s%s", fields_value_words(v, got, sizeof got),
+                 fields_kind_words(r), r->unit ? " in " : "", r->unit ? r->unit : "");
 }
 
 static bool read_number(const field *r, const json_file *f, const json_t *v, const char *pointer, double *out,
@@ -92,7 +91,7 @@ static bool read_number(const field *r, const json_file *f, const json_t *v, con
     *out = json_number_value(v);
     if (in_range(r, *out)) return true;
     fields_issue(f, pointer, issues, "is %s; must be %s", fields_value_words(v, got, sizeof got),
-                 range_words(r, range, sizeof range));
+                 fields_range_words(r, range, sizeof range));
     return false;
 }
 
@@ -125,6 +124,15 @@ static int split_words(const char *words, char *copy, size_t size, const char **
     for (char *save, *w = strtok_r(copy, " ", &save); w && n < NAMES_MAX; w = strtok_r(NULL, " ", &save))
         names[n++] = w;
     return n;
+}
+
+const char *fields_word(const field *r, int number, char *word, size_t size)
+{
+    char copy[256];
+    const char *names[NAMES_MAX];
+    int count = split_words(r->words, copy, sizeof copy, names);
+    snprintf(word, size, "%s", number >= 0 && number < count ? names[number] : "");
+    return word;
 }
 
 static void read_word(const field *r, const json_file *f, const json_t *v, const char *pointer, int *target,
@@ -310,63 +318,7 @@ void fields_read(const field_table *t, const json_file *f, const json_t *o, cons
         snprintf(place, sizeof place, "%s/%s", pointer, r->name);
         for (char *c = place + strlen(pointer); *c; c++)
             if (*c == '.') *c = '/';
-        fields_issue(f, place, issues, "is missing; must be %s", kind_words(r));
+        fields_issue(f, place, issues, "is missing; must be %s", fields_kind_words(r));
     }
     issue_sort_by_line(issues, from);
-}
-
-static void print_default(const field *r, const void *defaults, FILE *out)
-{
-    const char *at = (const char *)defaults + r->offset;
-    double v[3] = {0};
-    int word;
-    char copy[256];
-    const char *names[NAMES_MAX];
-    switch (r->kind) {
-    case FIELD_NUMBER:
-        memcpy(v, at, sizeof v[0]);
-        fprintf(out, "default %g", v[0]);
-        break;
-    case FIELD_VEC3:
-        memcpy(v, at, sizeof v);
-        fprintf(out, "default [%g, %g, %g]", v[0], v[1], v[2]);
-        break;
-    case FIELD_RANGE:
-        memcpy(v, at, 2 * sizeof v[0]);
-        fprintf(out, "default [%g, %g]", v[0], v[1]);
-        break;
-    case FIELD_COUNT:
-        memcpy(&word, at, sizeof word);
-        fprintf(out, "default %d", word);
-        break;
-    case FIELD_WORD:
-        memcpy(&word, at, sizeof word);
-        split_words(r->words, copy, sizeof copy, names);
-        fprintf(out, "default %s", names[word]);
-        break;
-    default: fprintf(out, "optional");
-    }
-}
-
-void fields_print(const field_table *t, FILE *out)
-{
-    fprintf(out, "%s\n", t->title);
-    for (int i = 0; i < t->count; i++) {
-        const field *r = &t->row[i];
-        char range[128];
-        fprintf(out, "\n  %s\n      %s%s%s", r->name, kind_words(r), r->kind == FIELD_WORD ? ": " : "",
-                r->kind == FIELD_WORD ? r->words : "");
-        bool numeric =
-            r->kind == FIELD_NUMBER || r->kind == FIELD_COUNT || r->kind == FIELD_VEC3 || r->kind == FIELD_RANGE;
-        if (numeric) fprintf(out, ", %s", range_words(r, range, sizeof range));
-        fprintf(out, "; ");
-        if (r->required)
-            fprintf(out, "required");
-        else if (t->defaults)
-            print_default(r, t->defaults, out);
-        else
-            fprintf(out, "optional");
-        fprintf(out, "\n      %s\n", r->help);
-    }
-    fprintf(out, "\nA field whose name begins with // is a comment.\n");
 }

@@ -4,7 +4,6 @@
 #pragma once
 #include "app/planner/store/issue.h"
 #include "geometry/json_file.h"
-#include <stdio.h>
 
 enum { FIELD_PATH_SIZE = 1024, FIELD_TEXT_SIZE = 256 };
 
@@ -60,5 +59,8 @@ void fields_read(const field_table *t, const json_file *f, const json_t *o, cons
 void fields_issue(const json_file *f, const char *pointer, issue_list *issues, const char *fmt, ...) PRINTF_LIKE(4, 5);
 /* What the value is, in words, for messages: `"text"`, `12`, `a list`. */
 const char *fields_value_words(const json_t *value, char *words, size_t size);
-/* The help text. */
-void fields_print(const field_table *t, FILE *out);
+/* What a field holds and in which range, for messages and help: "a number", "more than 0 and at most 20 mm". */
+const char *fields_kind_words(const field *r);
+const char *fields_range_words(const field *r, char *words, size_t size);
+/* The word of a FIELD_WORD by its number; "" where there is none. */
+const char *fields_word(const field *r, int number, char *word, size_t size);

@@ -1,0 +1,56 @@
+#include "app/cli/plan_audit_print.h"
+#include <math.h>
+#include <stdio.h>
+
+static void print_finding(const plan_audit *a, const finding *f, const char *remedy)
+{
+    const limit *l = &limit_default[f->limit];
+    const limit_range *r = &a->patient->limits[f->limit];
+    char name[80], fine[LIMIT_WORDS_SIZE], stop[LIMIT_WORDS_SIZE], margin[24] = "-";
+    snprintf(name, sizeof name, "%s%s%s", l->name, *f->where ? ", " : "", f->where);
+    if (f->level == LIMIT_NOT_JUDGED) {
+        printf("%-10s %-56s %s\n", limit_level_name(f->level), name, f->note);
+        return;
+    }
+    if (isfinite(f->margin)) snprintf(margin, sizeof margin, "%.2f", f->margin);
+    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s%s\n", limit_level_name(f->level), name, f->value,
+           limit_range_words(r->fine, fine), limit_range_words(r->stop, stop), margin,
+           f->estimated ? "  estimated" : "", *remedy ? "  -> " : "", remedy);
+}
+
+void plan_audit_print(const plan_audit *a)
+{
+    const judgement *j = &a->judgement;
+    int count[4] = {0};
+    for (int i = 0; i < j->count; i++) count[j->finding[i].level]++;
+    printf("plan %s on %s: %d stop, %d caution, %d fine, %d not judged\n\n", a->plan->name, a->patient->name,
+           count[LIMIT_STOP], count[LIMIT_CAUTION], count[LIMIT_FINE], count[LIMIT_NOT_JUDGED]);
+    printf("%-10s %-56s %8s  %-14s %-14s %8s\n", "level", "limit", "value", "fine", "stop outside", "margin");
+    static const limit_level order[] = {LIMIT_STOP, LIMIT_CAUTION, LIMIT_FINE, LIMIT_NOT_JUDGED};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < j->count; i++)
+            if (j->finding[i].level == order[k]) print_finding(a, &j->finding[i], a->remedy[i]);
+    printf(
+        "\nThe soft tissue (stretch, incisor show, proportions) is judged by gnathos predict. ->: the smallest single "
+        "change of the plan that brings the limit to the next better level and none to a worse one.\n");
+    if (j->worst != LIMIT_STOP) return;
+    if (*a->plan->override)
+        printf("Stops accepted because: %s\n", a->plan->override);
+    else
+        printf("Not feasible as it stands. Change the plan, or say why in \"override\".\n");
+}
+
+void judgement_print_brief(const judgement *j, const case_file *c)
+{
+    int count[4] = {0};
+    char stop[LIMIT_WORDS_SIZE];
+    for (int i = 0; i < j->count; i++) count[j->finding[i].level]++;
+    printf("limits: %d stop, %d caution, %d not judged (gnathos audit CASE --plan lists them)\n", count[LIMIT_STOP],
+           count[LIMIT_CAUTION], count[LIMIT_NOT_JUDGED]);
+    for (int i = 0; i < j->count; i++) {
+        const finding *f = &j->finding[i];
+        if (f->level == LIMIT_STOP)
+            printf("  %s%s%s is %.4g, should be %s\n", limit_default[f->limit].name, *f->where ? ", " : "", f->where,
+                   f->value, limit_range_words(c->limits[f->limit].stop, stop));
+    }
+}
