@@ -1,4 +1,5 @@
 #include "app/cli/fields_help.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,7 +20,12 @@ static void print_default(const field *r, const void *defaults)
         break;
     case FIELD_RANGE:
         memcpy(v, at, 2 * sizeof v[0]);
-        printf("default [%g, %g]", v[0], v[1]);
+        printf("default [");
+        for (int i = 0; i < 2; i++)
+            if (isinf(v[i]))
+                printf("null%s", i ? "]" : ", ");
+            else
+                printf("%g%s", v[i], i ? "]" : ", ");
         break;
     case FIELD_COUNT:
         memcpy(&word, at, sizeof word);

@@ -1,6 +1,7 @@
 #include "render/colormap.h"
 #include <assert.h>
 #include <math.h>
+#include <pthread.h>
 
 const double colormap_no_data[3] = {0.55, 0.55, 0.55};
 
@@ -87,22 +88,24 @@ static void coolwarm(double t, double rgb[3])
     lab_to_rgb(out, rgb);
 }
 
+static uint8_t table[2][3 * COLORMAP_SIZE];
+
+static void make_tables(void)
+{
+    for (int i = 0; i < COLORMAP_SIZE; i++) {
+        double rgb[2][3], t = i / (COLORMAP_SIZE - 1.0);
+        viridis(t, rgb[COLORMAP_VIRIDIS]);
+        coolwarm(t, rgb[COLORMAP_COOLWARM]);
+        for (int m = 0; m < 2; m++)
+            for (int k = 0; k < 3; k++) table[m][3 * i + k] = (uint8_t)(255 * fmin(1, fmax(0, rgb[m][k])) + 0.5);
+    }
+}
+
 const uint8_t *colormap_table(colormap map)
 {
-    static uint8_t table[2][3 * COLORMAP_SIZE];
-    static int made[2];
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
     assert(map == COLORMAP_VIRIDIS || map == COLORMAP_COOLWARM);
-    if (!made[map]) {
-        for (int i = 0; i < COLORMAP_SIZE; i++) {
-            double rgb[3], t = i / (COLORMAP_SIZE - 1.0);
-            if (map == COLORMAP_VIRIDIS)
-                viridis(t, rgb);
-            else
-                coolwarm(t, rgb);
-            for (int k = 0; k < 3; k++) table[map][3 * i + k] = (uint8_t)(255 * fmin(1, fmax(0, rgb[k])) + 0.5);
-        }
-        made[map] = 1;
-    }
+    pthread_once(&once, make_tables);
     return table[map];
 }
 

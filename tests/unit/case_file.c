@@ -109,6 +109,29 @@ static void given_fields_arrive_where_they_belong(void **state)
     assert_false(case_file_frees(&c, SEGMENT_CHIN));
 }
 
+static void null_is_an_open_end_and_every_number_is_a_limit(void **state)
+{
+    (void)state;
+    err e = {0};
+    case_file c;
+    char words[LIMIT_WORDS_SIZE];
+    put("case.json", "{" NEEDED ", \"limits\": {\"trim_volume_mm3\": {\"fine\": [0, 200], \"stop\": [0, 1000]},\n"
+                     "\"chin_advance_mm\": {\"stop\": [null, 2]}, \"chin_lift_mm\": {\"stop\": [null, null]}}}");
+    assert_ok(case_file_load(folder, &c, &e));
+    const limit_range *trim = &c.limits[LIMIT_TRIM_VOLUME], *advance = &c.limits[LIMIT_CHIN_ADVANCE],
+                      *lift = &c.limits[LIMIT_CHIN_LIFT];
+    assert_int_equal(limit_judge(trim, 999), LIMIT_CAUTION);
+    assert_int_equal(limit_judge(trim, 1001), LIMIT_STOP);
+    assert_near(limit_margin(trim, 1001), -1, 0);
+    assert_string_equal(limit_range_words(trim->stop, words), "0 to 1000");
+    assert_int_equal(limit_judge(advance, -1e9), LIMIT_CAUTION);
+    assert_int_equal(limit_judge(advance, 2.5), LIMIT_STOP);
+    assert_string_equal(limit_range_words(advance->stop, words), "at most 2");
+    assert_int_equal(limit_judge(lift, 1e9), LIMIT_CAUTION);
+    assert_true(isinf(limit_margin(lift, 1e9)));
+    assert_string_equal(limit_range_words(lift->stop, words), "-");
+}
+
 static void a_plane_of_ones_own_frees_its_segment(void **state)
 {
     (void)state;
@@ -160,6 +183,7 @@ int main(void)
         cmocka_unit_test(absent_fields_take_the_defaults_of_their_stage),
         cmocka_unit_test(every_default_is_within_its_own_range),
         cmocka_unit_test(given_fields_arrive_where_they_belong),
+        cmocka_unit_test(null_is_an_open_end_and_every_number_is_a_limit),
         cmocka_unit_test(a_plane_of_ones_own_frees_its_segment),
         cmocka_unit_test(everything_wrong_is_named_by_line),
         cmocka_unit_test(a_refused_case_leaves_the_output_alone),

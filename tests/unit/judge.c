@@ -1,7 +1,7 @@
 /* Plans judged on a head of blocks, where every bound is known: the right limit decides, within 0.05 mm. */
 #include "tests/check.h"
 #include "tests/unit/bodies.h"
-#include "app/planner/judge/judge.h"
+#include "app/planner/judge/plan_audit.h"
 #include "geometry/vec.h"
 
 static case_file patient;
@@ -166,6 +166,25 @@ static void bone_to_be_trimmed_is_measured(void **state)
     assert_near(find(&j, LIMIT_TRIM_DEPTH)->value, 3.5, 0.05);
     assert_near(find(&j, LIMIT_TRIM_VOLUME)->value, 60 * 70 * 3.5, 0.01 * 60 * 70 * 3.5);
     assert_true(find(&j, LIMIT_TRIM_DEPTH)->has_place);
+    assert_int_equal(find(&j, LIMIT_TRIM_VOLUME)->level, LIMIT_CAUTION); /* as it stands, nothing stops there */
+    patient.limits[LIMIT_TRIM_VOLUME].stop[1] = 1000;
+    judged(&p, &j);
+    assert_int_equal(find(&j, LIMIT_TRIM_VOLUME)->level, LIMIT_STOP);
+    json_t *written = judgement_json(&j, &patient, ""), *one;
+    size_t i;
+    int seen = 0;
+    json_array_foreach(json_object_get(written, "limits"), i, one)
+    {
+        const char *name = json_string_value(json_object_get(one, "limit"));
+        const json_t *stop = json_object_get(one, "stop");
+        if (strcmp(name, "trim_volume_mm3")) continue;
+        assert_true(json_is_null(json_array_get(stop, 0)));
+        assert_near(json_number_value(json_array_get(stop, 1)), 1000, 0);
+        seen++;
+    }
+    assert_true(seen > 0);
+    json_decref(written);
+    patient.limits[LIMIT_TRIM_VOLUME] = limit_default[LIMIT_TRIM_VOLUME].range;
     assert_near(bound(upper_up, 0, 14, &by), 10, 0.05);
     assert_int_equal(by, LIMIT_MAXILLA_IMPACTION);
     patient.limits[LIMIT_MAXILLA_IMPACTION].stop[1] = 30;

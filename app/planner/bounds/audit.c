@@ -14,6 +14,10 @@ static bool make_box(audit *a, int k, err *e)
 {
     const control *x = &a->settings.control[k];
     double base = a->base_value[k], wide = a->settings.spacing;
+    if (!isfinite(x->low) || !isfinite(x->high))
+        return err_at(e, ERR_INPUT, a->patient->path, 0, NULL,
+                      "leaves limits.%s.stop open, so that there is no end to where %s may be looked at",
+                      limit_default[x->limit].name, x->name);
     if (!(base >= x->low && base <= x->high))
         return err_at(e, ERR_INPUT, a->base.path, 0, NULL,
                       "has %s %.4g, outside %g to %g: there is nothing to audit around it", x->name, base, x->low,

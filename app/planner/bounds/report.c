@@ -51,11 +51,7 @@ bool audit_bound_of(const audit *a, int request, int end, audit_bound *out, err 
 
 static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
 
-static json_t *range_json(const double r[2])
-{
-    return json_pack("[oo]", r[0] <= -LIMIT_OPEN ? json_null() : json_real(r[0]),
-                     r[1] >= LIMIT_OPEN ? json_null() : json_real(r[1]));
-}
+static json_t *range_json(const double r[2]) { return json_pack("[oo]", number(r[0]), number(r[1])); }
 
 static json_t *finding_json(const audit *a, const finding *f)
 {

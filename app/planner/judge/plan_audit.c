@@ -18,11 +18,7 @@ bool plan_audit_infeasible(const plan_audit *a) { return a->judgement.worst == L
 
 static json_t *number(double v) { return isfinite(v) ? json_real(v) : json_null(); }
 
-static json_t *range_json(const double r[2])
-{
-    return json_pack("[oo]", r[0] > -LIMIT_OPEN ? json_real(r[0]) : json_null(),
-                     r[1] < LIMIT_OPEN ? json_real(r[1]) : json_null());
-}
+static json_t *range_json(const double r[2]) { return json_pack("[oo]", number(r[0]), number(r[1])); }
 
 static json_t *finding_json(const finding *f, const case_file *c)
 {

@@ -2,6 +2,7 @@
  * the one of its own params struct, through case_file_default(). */
 #include "app/planner/patient/case_file.h"
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 #define SURFACE(word, id, needed, help_)                                                                               \
@@ -106,8 +107,7 @@ static const field rows[] = {
 #define LIMIT(id, field, part, unit_, help_)                                                                           \
     {                                                                                                                  \
         .name = "limits." #field "." #part, .kind = FIELD_RANGE,                                                       \
-        .offset = offsetof(case_file, limits[LIMIT_##id].part), .unit = unit_, FROM(-LIMIT_OPEN), TO(LIMIT_OPEN),      \
-        .help = help_ "."                                                                                              \
+        .offset = offsetof(case_file, limits[LIMIT_##id].part), .unit = unit_, ANY, .help = help_ "."                  \
     }
 #define X(id, field, unit, f0, f1, s0, s1, what, source)                                                               \
     LIMIT(id, field, fine, unit, "Fine within: " what), LIMIT(id, field, stop, unit, "Refused outside: " source),
@@ -115,10 +115,13 @@ static const field rows[] = {
 #undef X
 };
 
+static case_file case_defaults; /* filled once */
+static void set_defaults(void) { case_defaults = case_file_default(); }
+
 const field_table *case_fields(void)
 {
-    static case_file defaults;
-    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0], &defaults};
-    defaults = case_file_default();
+    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0], &case_defaults};
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, set_defaults);
     return &table;
 }

@@ -12,8 +12,7 @@ static const double rounding = 1e-6;
 
 static bool within(const double range[2], double value)
 {
-    return (range[0] <= -LIMIT_OPEN || value >= range[0] - rounding) &&
-           (range[1] >= LIMIT_OPEN || value <= range[1] + rounding);
+    return value >= range[0] - rounding && value <= range[1] + rounding;
 }
 
 limit_level limit_judge(const limit_range *r, double value)
@@ -25,9 +24,7 @@ limit_level limit_judge(const limit_range *r, double value)
 double limit_margin(const limit_range *r, double value)
 {
     bool never_negative = r->stop[0] == 0 && r->fine[0] == 0;
-    double below = r->stop[0] <= -LIMIT_OPEN || never_negative ? HUGE_VAL : value - r->stop[0],
-           above = r->stop[1] >= LIMIT_OPEN ? HUGE_VAL : r->stop[1] - value;
-    return fmin(below, above);
+    return fmin(never_negative ? LIMIT_OPEN : value - r->stop[0], r->stop[1] - value);
 }
 
 const char *limit_level_name(limit_level level)

@@ -1,11 +1,11 @@
 /* limit: the numbers a plan is judged by. Each has a range in which it is fine and a wider one beyond which the plan
- * has to say why ("override"); between the two lies caution. LIMIT_OPEN: no end on that side. */
+ * has to say why ("override"); between the two lies caution. An open end is infinite. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
-#define LIMIT_OPEN 1000.0
+#define LIMIT_OPEN ((double)HUGE_VAL) /* no end on that side */
 
 /* X(ENUMERATOR, name, unit, fine low, fine high, stop low, stop high, what, source).
  *

@@ -1,6 +1,7 @@
 /* The fields of a plan, one line each. */
 #include "app/planner/plan/plan_file.h"
 #include <math.h>
+#include <pthread.h>
 
 #define PLAN(member, unit_, low_, high_, help_) NUMBER(plan_file, member, unit_, low_, high_, help_)
 #define SEGMENT(member, unit_, low_, high_, help_) NUMBER(plan_segment, member, unit_, low_, high_, help_)
@@ -69,11 +70,15 @@ static const field segment_rows[] = {
      .help = "The whole move as a transform saved by 3D Slicer as text (.tfm), in place of all others."},
 };
 
+static plan_file plan_defaults; /* filled once */
+static void set_defaults(void) { plan_defaults = plan_file_default(); }
+
 const field_table *plan_fields(void)
 {
-    static plan_file defaults;
-    static const field_table table = {"A plan, one set of bone moves:", rows, sizeof rows / sizeof rows[0], &defaults};
-    defaults = plan_file_default();
+    static const field_table table = {"A plan, one set of bone moves:", rows, sizeof rows / sizeof rows[0],
+                                      &plan_defaults};
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, set_defaults);
     return &table;
 }
 

@@ -60,12 +60,13 @@ static void check_limit(const plan_file *p, const case_file *c, segment_id id, l
     bool excused = *p->override, short_form = p->segment[id].form == FORM_SHORT;
     const char *name = limit_default[l].name,
                *source = c->limit_from_case[l] ? "set by the case" : limit_default[l].source;
-    char where[64];
+    char where[64], range[LIMIT_WORDS_SIZE];
+    bool both_ends = isfinite(r->stop[0]) && isfinite(r->stop[1]);
     snprintf(where, sizeof where, "%s%s", short_form ? "" : "segments.", short_form ? name : segment_name(id));
     issue_add(issues, excused ? ISSUE_WARNING : ISSUE_ERROR, ERR_INFEASIBLE, p->path, p->segment[id].line, where,
-              "%s%sis %.4g, outside %g to %g: %s. %s%s", short_form ? "" : name, short_form ? "" : " ", value,
-              r->stop[0], r->stop[1], source, excused ? "Accepted because: " : "Move less, or say why in \"override\"",
-              excused ? p->override : "");
+              "%s%sis %.4g, %s %s: %s. %s%s", short_form ? "" : name, short_form ? "" : " ", value,
+              both_ends ? "outside" : "must be", limit_range_words(r->stop, range), source,
+              excused ? "Accepted because: " : "Move less, or say why in \"override\"", excused ? p->override : "");
 }
 
 /* The measures of one segment's own move, from limit *first on; returns how many. */

@@ -42,7 +42,7 @@ const char *fields_range_words(const field *r, char *words, size_t size)
     const char *unit = r->unit ? r->unit : "", *gap = *unit ? " " : "";
     const char *below = r->high_open ? "less than" : "at most", *above = r->low_open ? "more than" : "at least";
     if (isinf(r->low) && isinf(r->high))
-        snprintf(words, size, "any%s%s", gap, unit);
+        snprintf(words, size, "any%s%s%s", gap, unit, r->kind == FIELD_RANGE ? ", null for an open end" : "");
     else if (isinf(r->high))
         snprintf(words, size, "%s %g%s%s", above, r->low, gap, unit);
     else if (isinf(r->low))
@@ -109,7 +109,12 @@ static void read_numbers(const field *r, const json_file *f, const json_t *v, co
     one.kind = FIELD_NUMBER;
     for (size_t i = 0; i < want; i++) {
         snprintf(element, sizeof element, "%s/%zu", pointer, i);
-        if (!read_number(&one, f, json_array_get(v, i), element, &out[i], issues)) return;
+        const json_t *number = json_array_get(v, i);
+        double end = i ? r->high : r->low;
+        if (r->kind == FIELD_RANGE && isinf(end) && json_is_null(number))
+            out[i] = end;
+        else if (!read_number(&one, f, number, element, &out[i], issues))
+            return;
     }
     if (r->kind == FIELD_RANGE && out[0] > out[1])
         fields_issue(f, pointer, issues, "is [%g, %g]; the first number must be the smaller one", out[0], out[1]);

@@ -12,7 +12,7 @@ typedef enum field_kind {
     FIELD_NUMBER,  /* double */
     FIELD_COUNT,   /* int */
     FIELD_VEC3,    /* double[3], each in the range */
-    FIELD_RANGE,   /* double[2], low <= high, each in the range */
+    FIELD_RANGE,   /* double[2], low <= high, each in the range; null is an infinite end where the range has one */
     FIELD_WORD,    /* int: number of the word in `words` */
     FIELD_TEXT,    /* char[FIELD_TEXT_SIZE] */
     FIELD_FILE,    /* char[FIELD_PATH_SIZE]: an existing file, joined to the folder of the file that names it */
