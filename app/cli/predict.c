@@ -1,14 +1,9 @@
 /* gnathos predict CASE --plan P -o OUT: the face after a plan. */
 #include "app/cli/command.h"
 #include "app/cli/outcome_print.h"
-#include "app/planner/predict/judge_tissue.h"
-#include "app/planner/predict/outcome.h"
 #include "app/planner/judge/plan_audit.h"
-#include "app/planner/predict/plan_contact.h"
-#include "app/planner/predict/plan_tissue.h"
+#include "app/planner/predict/outcome.h"
 #include "geometry/clock.h"
-#include "geometry/mem.h"
-#include "geometry/vec.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/standard.h"
 #include <sys/stat.h>
@@ -62,44 +57,6 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
-}
-
-static bool was_interrupted(void *context)
-{
-    (void)context;
-    return command_interrupted();
-}
-
-static void show_iteration(const solve_record *r, void *context)
-{
-    char stage[96];
-    snprintf(stage, sizeof stage, "solving: load %.2f, iteration %d, residual %.2e mN", r->load, r->iteration,
-             r->residual_mn);
-    command_progress_at(context, stage, -1);
-}
-
-static bool solve(const plan_file *plan, const plan_moves *moves, const prepared *p, const bone_shapes *bones,
-                  const plan_tissue *t, const struct input *in, equilibrium *out, scene_report *scene, err *e)
-{
-    equilibrium_problem problem = {
-        .mesh = &t->mesh, .attach = &t->attach, .materials = t->material, .material_count = t->material_count};
-    for (int s = 0; s < SEGMENT_COUNT; s++) problem.motion[s] = moves->move[s];
-    solve_params params = solve_params_default();
-    if (plan->load_steps > 0) params.load_steps = plan->load_steps;
-    params.interrupted = was_interrupted;
-    params.progress = show_iteration;
-    params.context = (command_options *)&in->common;
-    scene_params needs = scene_params_default();
-    needs.full = in->full;
-    plan_contact touch = {0};
-    if (in->contact != CONTACT_OFF) {
-        plan_contact_make(in->contact, &p->tissue, bones, &t->attach, moves->move, t->material[0].material.young_kpa,
-                          &touch);
-        problem.contact = &touch.setup;
-    }
-    bool ok = scene_solve(&problem, &needs, &params, out, scene, e);
-    plan_contact_free(&touch);
-    return ok;
 }
 
 #if GNATHOS_WITH_RENDER
@@ -163,8 +120,8 @@ static bool judge_bones_first(const struct input *in, const case_file *c, const 
     return judgement_allows(out, c, plan, e);
 }
 
-static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, output_dir *dir,
-                    bool *solved, err *e)
+static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, const task *watch,
+                    output_dir *dir, bool *solved, err *e)
 {
     plan_file plan;
     plan_moves moves;
@@ -172,63 +129,28 @@ static bool predict(const struct input *in, const case_file *c, const prepared *
     if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e) ||
         !judge_bones_first(in, c, p, &plan, &moves, &limits, e))
         return false;
-    equilibrium q = {0};
-    scene_report scene = {0};
-    plan_tissue flesh = {0};
-    bone_shapes bones;
-    double start = clock_s();
-    if (!bone_shapes_make(p, &bones, e)) return false;
-    bool ready = plan_tissue_make(c, p, moves.move, in->contact == CONTACT_LIPS, &flesh, e);
-    if (ready && in->contact == CONTACT_BONES)
-        flesh.released = plan_contact_release(&p->tissue, &bones, moves.move, &flesh.attach);
-    if (!ready || !solve(&plan, &moves, p, &bones, &flesh, in, &q, &scene, e)) {
-        plan_tissue_free(&flesh);
-        bone_shapes_free(&bones);
-        return false;
+    prediction_options asked = prediction_options_default();
+    prediction made;
+    asked.contact = in->contact;
+    asked.full = in->full;
+    asked.load_steps = plan.load_steps;
+    asked.bones = &limits;
+    if (!prediction_make(c, p, NULL, &moves, &asked, watch, &made, e)) {
+        if (e->code != ERR_INTERRUPTED) return false;
+        *e = (err){0};
+        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
     }
-    outcome o = {.patient = c,
-                 .plan = &plan,
-                 .moves = &moves,
-                 .prepared = p,
-                 .tissue = &flesh,
-                 .solve = &q,
-                 .scene = &scene,
-                 .prepare_s = prepare_s,
-                 .solve_s = clock_s() - start,
-                 .limits = &limits,
-                 .contact = in->contact};
-    *solved = q.outcome == SOLVED;
-    carried_landmarks points = {0};
-    bone_depth depth = {0};
-    surface skin = {0};
-    double *u = NEW_ARRAY(double, 3 * (size_t)q.node_count);
-    bool ok = q.outcome != STOPPED_INTERRUPTED || err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
-    if (ok && *solved) {
-        for (size_t i = 0; i < 3 * (size_t)q.node_count; i++) u[i] = q.xyz[i] - p->tissue.mesh.xyz[i];
-        skin = surface_copy(&p->skin);
-        embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, skin.xyz);
-        ok = carry_landmarks(p, &moves, u, &points, e) &&
-             bone_depth_measure(p, &bones, &moves, &flesh.attach, q.xyz, &depth, e);
-        o.depth = &depth;
-        o.u = u;
-        o.skin = &skin;
-        o.points = &points;
-    }
-    judge_tissue(c, p, &q, o.points, &limits);
-    ok = ok && write_all(in, &o, dir, e) && output_dir_close(dir, e);
+    outcome o = outcome_of(c, p, &plan, &moves, in->contact, &made);
+    o.prepare_s = prepare_s;
+    *solved = made.solve.outcome == SOLVED;
+    bool ok = write_all(in, &o, dir, e) && output_dir_close(dir, e);
     if (ok && in->common.json)
         command_print_json(outcome_json(&o), "predict");
     else if (ok) {
         outcome_print(&o);
         if (*solved) printf("Results in %s\n", in->out);
     }
-    free(u);
-    surface_free(&skin);
-    carried_landmarks_free(&points);
-    equilibrium_free(&q);
-    scene_report_free(&scene);
-    plan_tissue_free(&flesh);
-    bone_shapes_free(&bones);
+    prediction_free(&made);
     return ok;
 }
 
@@ -257,7 +179,7 @@ int command_predict(int argc, char **argv)
         return command_fail(&e);
     }
     landmarks_free(&points);
-    bool ok = predict(&in, &c, &p, clock_s() - start, &dir, &solved, &e);
+    bool ok = predict(&in, &c, &p, clock_s() - start, &watch, &dir, &solved, &e);
     prepared_free(&p);
     if (!ok) {
         output_dir_abandon(&dir);

@@ -2,13 +2,12 @@
 #include "app/study/measures.h"
 #include "app/planner/store/child.h"
 #include "app/planner/store/pack_file.h"
-#include "app/planner/predict/plan_tissue.h"
+#include "app/planner/predict/prediction.h"
 #include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
 #include "geometry/tissue_refine.h"
 #include "geometry/vec.h"
-#include "sim/scene.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,56 +73,36 @@ static bool take_prepared(const study_task *t, const study_rung *r, prepared *p,
     return true;
 }
 
-static bool solve(const study_task *t, const study_rung *r, const prepared *p, equilibrium *q, study_result *out,
-                  err *e)
+/* The prediction of a rung, all in it but what a study does not ask: nobody watches, and depth is not measured. */
+static bool solve(const study_task *t, const study_rung *r, const prepared *p, prediction *made, err *e)
 {
-    plan_tissue flesh;
-    if (!plan_tissue_make(t->patient, p, t->motion, r->contact == CONTACT_LIPS, &flesh, e)) return false;
-    equilibrium_problem problem = {.mesh = &flesh.mesh,
-                                   .attach = &flesh.attach,
-                                   .materials = flesh.material,
-                                   .material_count = flesh.material_count};
-    memcpy(problem.motion, t->motion, sizeof t->motion);
-    solve_params params = solve_params_default();
-    if (r->rel_tol > 0) params.rel_tol = r->rel_tol;
-    params.load_steps = r->load_steps > 0 ? r->load_steps : t->load_steps;
-    scene_params needs = scene_params_default();
-    needs.full = r->scene_mm <= 0;
-    if (r->scene_mm > 0) needs.tolerance_mm = r->scene_mm;
+    case_file c = *t->patient;
+    plan_moves moves = {0};
+    prediction_options options = prediction_options_default();
+    memcpy(moves.move, t->motion, sizeof moves.move);
+    if (r->poisson > 0) c.material.poisson = r->poisson;
+    if (r->element) c.material.element = r->element;
+    if (r->rel_tol > 0) options.rel_tol = r->rel_tol;
+    if (r->scene_mm > 0) options.scene_mm = r->scene_mm;
     if (r->threads > 0) parallel_set_threads(r->threads);
-    bone_shapes bones = {0};
-    plan_contact touch = {0};
-    bool ok =
-        material_make((material_model)r->model, t->patient->material.young_kpa,
-                      r->poisson > 0 ? r->poisson : t->patient->material.poisson, &flesh.material[0].material, e) &&
-        (!r->contact || bone_shapes_make(p, &bones, e));
-    element_kind element = (element_kind)(r->element ? r->element : t->patient->material.element);
-    for (int k = 0; ok && k < flesh.material_count; k++) ok = element_choose(&flesh.material[k].material, element, e);
-    if (ok && r->contact == CONTACT_BONES) plan_contact_release(&p->tissue, &bones, t->motion, &flesh.attach);
-    if (ok && r->contact) {
-        plan_contact_make(r->contact, &p->tissue, &bones, &flesh.attach, t->motion,
-                          flesh.material[0].material.young_kpa, &touch);
-        problem.contact = &touch.setup;
-    }
-    double wall = clock_s(), cpu = clock_cpu_s();
-    scene_report left_out = {0};
-    ok = ok && scene_solve(&problem, &needs, &params, q, &left_out, e);
-    out->wall_s = clock_s() - wall;
-    out->cpu_s = clock_cpu_s() - cpu;
-    scene_report_free(&left_out);
-    plan_contact_free(&touch);
-    bone_shapes_free(&bones);
-    plan_tissue_free(&flesh);
-    return ok;
+    options.full = r->scene_mm <= 0;
+    options.load_steps = r->load_steps > 0 ? r->load_steps : t->load_steps;
+    options.model = (material_model)r->model;
+    options.contact = r->contact;
+    options.depth = false;
+    return prediction_make(&c, p, NULL, &moves, &options, NULL, made, e);
 }
 
-static void describe(const prepared *p, const equilibrium *q, study_result *r)
+static void describe(const prepared *p, const prediction *made, study_result *r)
 {
+    const equilibrium *q = &made->solve;
     tetmesh_quality quality = tetmesh_measure(&p->tissue.mesh);
     r->solved = q->outcome == SOLVED;
     snprintf(r->text, sizeof r->text, "%s", solve_outcome_text(q->outcome));
     r->nodes = p->tissue.mesh.vertex_count;
     r->tets = p->tissue.mesh.tet_count;
+    r->wall_s = made->solve_s;
+    r->cpu_s = made->cpu_s;
     r->unknowns = q->unknown_count;
     r->size_mm = cbrt(quality.volume_mm3 / r->tets);
     r->iterations = q->iterations;
@@ -141,33 +120,23 @@ static void describe(const prepared *p, const equilibrium *q, study_result *r)
     r->inverted = q->extremes.inverted_count;
 }
 
-static bool keep(const job *j, const prepared *p, const equilibrium *q, const study_result *r, err *e)
+static bool keep(const job *j, const prepared *p, const prediction *made, const study_result *r, err *e)
 {
     pack_file f = {0};
     pack_put(&f, "key", j->task->key, sizeof j->task->key);
     pack_put(&f, "result", r, sizeof *r);
-    bool ok = true;
     if (r->solved) {
-        size_t n = 3 * (size_t)q->node_count, skin = 3 * (size_t)p->skin.vertex_count;
-        double *u = NEW_ARRAY(double, n), *moved = NEW_ARRAY(double, skin);
-        for (size_t i = 0; i < n; i++) u[i] = q->xyz[i] - p->tissue.mesh.xyz[i];
-        embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, u, p->skin.xyz, moved);
-        for (size_t i = 0; i < skin; i++) moved[i] -= p->skin.xyz[i];
-        plan_moves moves = {0};
-        memcpy(moves.move, j->task->motion, sizeof moves.move);
-        carried_landmarks points;
-        ok = carry_landmarks(p, &moves, u, &points, e);
-        double *point = NEW_ARRAY(double, 3 * (size_t)p->points.count);
-        for (int32_t i = 0; ok && i < p->points.count; i++)
-            vec_sub(points.after.point[i].xyz, p->points.point[i].xyz, point + 3 * (size_t)i);
-        if (ok) carried_landmarks_free(&points);
+        size_t skin = 3 * (size_t)p->skin.vertex_count;
+        double *moved = NEW_ARRAY(double, skin), *point = NEW_ARRAY(double, 3 * (size_t)p->points.count);
+        for (size_t i = 0; i < skin; i++) moved[i] = made->skin.xyz[i] - p->skin.xyz[i];
+        for (int32_t i = 0; i < p->points.count; i++)
+            vec_sub(made->points.after.point[i].xyz, p->points.point[i].xyz, point + 3 * (size_t)i);
         pack_put(&f, "skin", moved, skin * sizeof *moved);
         pack_put(&f, "points", point, 3 * (size_t)p->points.count * sizeof *point);
-        free(u);
         free(moved);
         free(point);
     }
-    ok = ok && pack_write(&f, j->path, e);
+    bool ok = pack_write(&f, j->path, e);
     pack_free(&f);
     return ok;
 }
@@ -178,18 +147,18 @@ static void work(void *context, void *result)
     reply own = {0};
     study_result r = {0};
     prepared p = {0};
-    equilibrium q = {0};
+    prediction made = {0};
     own.ok = take_prepared(j->task, j->rung, &p, &r.meshing_s, &own.e);
-    if (own.ok && !solve(j->task, j->rung, &p, &q, &r, &own.e)) { /* a rung that this case has not: say so */
+    if (own.ok) study_add_lips(&p);
+    if (own.ok && !solve(j->task, j->rung, &p, &made, &own.e)) { /* a rung that this case has not: say so */
         snprintf(r.text, sizeof r.text, "%.*s", (int)sizeof r.text - 1, own.e.text);
         own.e = (err){0};
     } else if (own.ok) {
-        describe(&p, &q, &r);
+        describe(&p, &made, &r);
     }
     if (own.ok && task_interrupted(j->task->watch)) own.ok = err_set(&own.e, ERR_INTERRUPTED, "interrupted");
-    if (own.ok) study_add_lips(&p);
-    own.ok = own.ok && keep(j, &p, &q, &r, &own.e);
-    equilibrium_free(&q);
+    own.ok = own.ok && keep(j, &p, &made, &r, &own.e);
+    prediction_free(&made);
     prepared_free(&p);
     memcpy(result, &own, sizeof own);
 }

@@ -2,14 +2,10 @@
  *   head CASE PLAN [threads, default 1]
  * Ways: off (no contact), bones (predict's default), each cold, and bones-replan: every moved segment 1 mm further,
  * from the solution before. All tissue is solved for, to 1e-6; the prepared case's bones are made ready beforehand. */
-#include "app/planner/predict/plan_contact.h"
-#include "app/planner/plan/plan_file.h"
-#include "app/planner/plan/plan_moves.h"
-#include "app/planner/predict/plan_tissue.h"
+#include "app/planner/predict/prediction.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
 #include "tests/bench/yardstick.h"
-#include <string.h>
 
 typedef struct work {
     case_file c;
@@ -17,8 +13,8 @@ typedef struct work {
     plan_file plan;
     plan_moves moves;
     bone_shapes bones;
-    plan_tissue flesh;
-    solve_params params;
+    prediction_options asked;
+    int threads;
 } work;
 
 static void tell(const work *w, const char *way, const equilibrium *q, spent took, spent one)
@@ -33,60 +29,55 @@ static void tell(const work *w, const char *way, const equilibrium *q, spent too
 static void run(work *w, contact_kind kind, bool again)
 {
     err e = {0};
-    equilibrium q, next;
-    plan_contact touch = {0};
+    equilibrium next;
+    prediction made;
+    prediction_setup setup;
     solver *t = NULL;
-    equilibrium_problem problem = {.mesh = &w->flesh.mesh,
-                                   .attach = &w->flesh.attach,
-                                   .materials = w->flesh.material,
-                                   .material_count = w->flesh.material_count};
-    memcpy(problem.motion, w->moves.move, sizeof problem.motion);
-    spent one = one_linear_solve(&problem, w->params.blas_threads), begin = time_now();
-    if (kind != CONTACT_OFF) {
-        plan_contact_make(kind, &w->p.tissue, &w->bones, &w->flesh.attach, w->moves.move, w->c.material.young_kpa,
-                          &touch);
-        problem.contact = &touch.setup;
-    }
-    if (!solver_create(&problem, w->params.blas_threads, &t, &e) ||
-        !solver_solve(t, problem.motion, NULL, &w->params, &q, &e))
+    w->asked.contact = kind;
+    spent begin = time_now();
+    if (!prediction_begin(&w->c, &w->p, &w->bones, &w->moves, &w->asked, NULL, &made, &setup, &e)) give_up(&e);
+    spent ready = time_since(begin), one = one_linear_solve(&setup.problem, w->threads);
+    setup.params.blas_threads = w->threads;
+    begin = time_now();
+    if (!solver_create(&setup.problem, w->threads, &t, &e) ||
+        !solver_solve(t, setup.problem.motion, NULL, &setup.params, &made.solve, &e))
         give_up(&e);
-    tell(w, kind == CONTACT_OFF ? "off" : "bones", &q, time_since(begin), one);
-    if (again && q.outcome == SOLVED) {
+    spent took = time_since(begin);
+    took = (spent){took.wall_s + ready.wall_s, took.cpu_s + ready.cpu_s};
+    tell(w, kind == CONTACT_OFF ? "off" : "bones", &made.solve, took, one);
+    if (again && made.solve.outcome == SOLVED) {
         for (int s = 0; s < SEGMENT_COUNT; s++) {
-            double length = vec_norm(problem.motion[s].t);
-            if (length > 0) vec_scale(problem.motion[s].t, 1 + 1 / length, problem.motion[s].t);
+            double length = vec_norm(setup.problem.motion[s].t);
+            if (length > 0) vec_scale(setup.problem.motion[s].t, 1 + 1 / length, setup.problem.motion[s].t);
         }
         begin = time_now();
-        if (!solver_solve(t, problem.motion, q.xyz, &w->params, &next, &e)) give_up(&e);
+        if (!solver_solve(t, setup.problem.motion, made.solve.xyz, &setup.params, &next, &e)) give_up(&e);
         tell(w, "bones-replan", &next, time_since(begin), one);
         equilibrium_free(&next);
     }
-    equilibrium_free(&q);
     solver_destroy(&t);
-    plan_contact_free(&touch);
+    prediction_setup_free(&setup);
+    prediction_free(&made);
 }
 
 int main(int argc, char **argv)
 {
     err e = {0};
     static work w;
-    int threads = argc > 3 ? atoi(argv[3]) : 1;
-    if (argc < 3 || threads < 1) return 2;
-    parallel_set_threads(threads);
-    w.params = solve_params_default();
-    w.params.rel_tol = 1e-6;
-    w.params.blas_threads = threads;
+    w.threads = argc > 3 ? atoi(argv[3]) : 1;
+    if (argc < 3 || w.threads < 1) return 2;
+    parallel_set_threads(w.threads);
     if (!case_file_load(argv[1], &w.c, &e) || !prepared_get(&w.c, NULL, NULL, &w.p, &e) ||
-        !plan_moves_load(argv[2], &w.c, &w.p.points, &w.plan, &w.moves, &e) || !bone_shapes_make(&w.p, &w.bones, &e) ||
-        !plan_tissue_make(&w.c, &w.p, w.moves.move, false, &w.flesh, &e))
+        !plan_moves_load(argv[2], &w.c, &w.p.points, &w.plan, &w.moves, &e) || !bone_shapes_make(&w.p, &w.bones, &e))
         give_up(&e);
-    plan_contact_release(&w.p.tissue, &w.bones, w.moves.move, &w.flesh.attach);
-    if (w.plan.load_steps > 0) w.params.load_steps = w.plan.load_steps;
+    w.asked = prediction_options_default();
+    w.asked.rel_tol = 1e-6;
+    w.asked.load_steps = w.plan.load_steps;
     puts("nodes,tets,unknowns,way,outcome,iterations,factorisations,cg,touching,depth_mm,wall_s,cpu_s,linear_wall_s,"
          "linear_cpu_s,wall_ratio,cpu_ratio");
     run(&w, CONTACT_OFF, false);
     run(&w, CONTACT_BONES, true);
-    plan_tissue_free(&w.flesh);
     bone_shapes_free(&w.bones);
+    prepared_free(&w.p);
     return 0;
 }

@@ -2,8 +2,7 @@
  * to the ends, sides and corners of the box the outermost allowed point is solved; where the tissue stops it, the ray
  * is halved. Between neighbouring rays the rim runs straight. */
 #include "app/planner/bounds/audit.h"
-#include "app/planner/predict/judge_tissue.h"
-#include "app/planner/predict/plan_tissue.h"
+#include "app/planner/predict/prediction.h"
 #include "geometry/mem.h"
 #include <math.h>
 #include <stddef.h>
@@ -225,28 +224,24 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
 {
     audit *a = context;
-    judgement bones, j = {.reason = -1};
+    judgement bones;
     plan_moves moves;
-    plan_tissue t = {0};
-    if (!audit_judge(a, at, &bones, &moves, e) || !plan_tissue_make(a->patient, a->prepared, moves.move, false, &t, e))
+    prediction made;
+    prediction_options options = prediction_options_default();
+    options.contact = CONTACT_OFF;
+    options.full = true;
+    options.load_steps = a->base.load_steps;
+    options.skin = options.points = options.depth = false;
+    options.start_xyz = start_xyz;
+    const task watch = {.interrupted = audit_stopped, .context = a};
+    if (!audit_judge(a, at, &bones, &moves, e) ||
+        !prediction_make(a->patient, a->prepared, NULL, &moves, &options, &watch, &made, e))
         return false;
-    equilibrium_problem problem = {.mesh = &t.mesh,
-                                   .attach = &t.attach,
-                                   .materials = t.material,
-                                   .material_count = t.material_count,
-                                   .start_xyz = start_xyz};
-    memcpy(problem.motion, moves.move, sizeof problem.motion);
-    solve_params params = solve_params_default();
-    params.load_steps = a->base.load_steps;
-    params.interrupted = audit_stopped;
-    params.context = a;
-    bool ok = equilibrium_solve(&problem, &params, out, e);
-    if (ok) {
-        judge_tissue(a->patient, a->prepared, out, NULL, &j);
-        *v = audit_verdict(a, &j);
-    }
-    plan_tissue_free(&t);
-    return ok;
+    *v = audit_verdict(a, &made.limits);
+    *out = made.solve;
+    made.solve = (equilibrium){0};
+    prediction_free(&made);
+    return true;
 }
 
 static void tell_round(int done, int count, void *context)

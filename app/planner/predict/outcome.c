@@ -12,6 +12,26 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 
+outcome outcome_of(const case_file *c, const prepared *p, const plan_file *plan, const plan_moves *moves,
+                   contact_kind contact, const prediction *made)
+{
+    bool solved = made->solve.outcome == SOLVED;
+    return (outcome){.patient = c,
+                     .plan = plan,
+                     .moves = moves,
+                     .prepared = p,
+                     .tissue = &made->flesh,
+                     .solve = &made->solve,
+                     .scene = &made->scene,
+                     .u = made->u,
+                     .skin = solved ? &made->skin : NULL,
+                     .points = solved ? &made->points : NULL,
+                     .depth = solved ? &made->depth : NULL,
+                     .contact = contact,
+                     .limits = &made->limits,
+                     .solve_s = made->ready_s + made->solve_s};
+}
+
 static json_t *vector(const double v[3]) { return json_pack("[fff]", v[0], v[1], v[2]); }
 
 static json_t *plan_json(const outcome *o)

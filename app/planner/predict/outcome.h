@@ -1,14 +1,9 @@
 /* outcome: what a prediction leaves on disk, with the evidence for it. */
 #pragma once
-#include "app/planner/predict/bone_depth.h"
-#include "app/planner/predict/carried.h"
-#include "app/planner/judge/judge.h"
+#include "app/planner/predict/prediction.h"
 #include "app/planner/store/output_dir.h"
-#include "app/planner/predict/plan_contact.h"
-#include "app/planner/predict/plan_tissue.h"
-#include "sim/scene.h"
 
-typedef struct outcome {
+typedef struct outcome { /* borrows everything */
     const case_file *patient;
     const plan_file *plan;
     const plan_moves *moves;
@@ -16,15 +11,18 @@ typedef struct outcome {
     const plan_tissue *tissue;
     const equilibrium *solve;
     const scene_report *scene;
-    const double *u;     /* [3*nodes] displacement of the tissue, mm */
-    const surface *skin; /* predicted */
-    const carried_landmarks *points;
+    const double *u;                 /* [3*nodes] displacement of the tissue, mm */
+    const surface *skin;             /* predicted */
+    const carried_landmarks *points; /* NULL, as u and skin, unless the solve reached equilibrium */
     const bone_depth *depth;
     contact_kind contact;                           /* asked for */
     const judgement *limits;                        /* of bones and tissue */
     double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
 } outcome;
 
+/* What a prediction with skin, landmarks and depth shows; the other stages' seconds are the caller's to fill in. */
+outcome outcome_of(const case_file *c, const prepared *p, const plan_file *plan, const plan_moves *moves,
+                   contact_kind contact, const prediction *made);
 /* outcome.json as a new object: all numbers that are shown to a user. */
 json_t *outcome_json(const outcome *o);
 /* Meshes, moves and landmarks: skin_before.ply, skin_after.ply and .stl, segment_NAME.ply and .stl where the

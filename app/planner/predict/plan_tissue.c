@@ -5,14 +5,14 @@
  * compression (Griffin and others 2016, J Mater Sci Mater Med 27). */
 static const double cartilage_kpa = 3000, cartilage_poisson = 0.3;
 
-static bool make_materials(const case_file *c, plan_tissue *t, err *e)
+static bool make_materials(const case_file *c, material_model model, plan_tissue *t, err *e)
 {
     t->material[0].region = REGION_ANY;
     t->material[1].region = REGION_SEPTUM;
     t->material_count = t->nose.septum_tets ? 2 : 1;
     element_kind kind = (element_kind)c->material.element;
     material *flesh = &t->material[0].material, *cartilage = &t->material[1].material;
-    return material_make(MATERIAL_SNH_LOG, c->material.young_kpa, c->material.poisson, flesh, e) &&
+    return material_make(model, c->material.young_kpa, c->material.poisson, flesh, e) &&
            material_make(MATERIAL_SNH_LOG, cartilage_kpa, cartilage_poisson, cartilage, e) &&
            element_choose(flesh, kind, e) && element_choose(cartilage, kind, e);
 }
@@ -39,12 +39,13 @@ static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_
 }
 
 bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool free_lips,
-                      plan_tissue *out, err *e)
+                      material_model model, plan_tissue *out, err *e)
 {
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
     bool ok = plan_attach(&p->tissue, &p->segments, motion, &along_cuts, &t.attach, &t.cuts, e) &&
-              add_nose(p, motion, &t, e) && (free_lips || add_lip(c, p, motion, &t, e)) && make_materials(c, &t, e);
+              add_nose(p, motion, &t, e) && (free_lips || add_lip(c, p, motion, &t, e)) &&
+              make_materials(c, model, &t, e);
     if (ok)
         *out = t;
     else
