@@ -130,16 +130,6 @@ bool equilibrium_solve(const equilibrium_problem *problem, const solve_params *p
                        err *e) MUST_CHECK;
 void equilibrium_free(equilibrium *q);
 
-/* The same in two parts: everything that does not depend on the motion is kept for the next plan. mesh and
- * attach are borrowed until solver_destroy; motion and start_xyz are not looked at. A plan solved from rest
- * gives the same bits whatever was solved before; one that starts at the last solution starts with its matrix
- * and preconditioner too. */
-typedef struct solver solver;
-bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e) MUST_CHECK;
-void solver_destroy(solver **t);
-bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
-                  equilibrium *out, err *e) MUST_CHECK;
-
 #ifdef __cplusplus
 }
 #endif

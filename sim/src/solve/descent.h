@@ -2,7 +2,7 @@
  * the first guess, direct.c directions by factorised matrices, inexact.c those by conjugate gradients. */
 #pragma once
 #include "sim/linear.h"
-#include "sim/equilibrium.h"
+#include "sim/solver.h"
 #include "sim/src/contact/contact_state.h"
 #include "sim/src/linear/node_blocks.h"
 #include "sim/src/linear/multigrid.h"

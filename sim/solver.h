@@ -1,0 +1,25 @@
+/* solver: one tissue, solved for one plan after the other. What does not depend on how the bones move is made once:
+ * elements, pattern and its ordering, what could touch what. */
+#pragma once
+#include "sim/equilibrium.h"
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct solver solver;
+
+/* motion and start_xyz of the problem are not looked at; mesh, attach and contact are borrowed until solver_destroy.
+ * blas_threads >= 1, see linear.h. The caller destroys *out. Refuses what equilibrium_solve refuses, but of the
+ * motions and parameters. */
+bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e) MUST_CHECK;
+void solver_destroy(solver **t);
+
+/* As equilibrium_solve, for bones that go to motion from rest; start_xyz[3*nodes]: a guess at the result, or NULL. The
+ * caller frees *out. A plan solved from rest gives the same bits whatever was solved before; one that starts at the
+ * last solution starts with its matrix and preconditioner too. */
+bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
+                  equilibrium *out, err *e) MUST_CHECK;
+
+#ifdef __cplusplus
+}
+#endif
