@@ -25,6 +25,7 @@ const char *segment_name(segment_id id); /* "cranium", "maxilla", "distal", "pro
 int segment_from_name(const char *name);
 /* The fixed colour of each, sRGB 0..1: cranium ivory, the others told apart by hue and lightness. */
 void segment_color(segment_id id, double rgb[3]);
+const char *segment_title(segment_id id); /* for legends: "distal mandible" */
 void segments_free(segments *s);
 
 #ifdef __cplusplus

@@ -80,10 +80,6 @@ typedef struct gallery_range {
 /* Of a map that can be shown. */
 gallery_range gallery_map_range(const gallery *g, panel_show show);
 
-/* The fixed colour of each segment: cranium ivory, the others told apart by hue and lightness. */
-void subject_segment_color(segment_id id, double rgb[3]);
-const char *subject_segment_title(segment_id id); /* for legends: "distal mandible" */
-
 #ifdef __cplusplus
 }
 #endif

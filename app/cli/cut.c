@@ -64,8 +64,8 @@ static bool write_picture(const anatomy *a, const char *title, const output_dir 
                                       .before = rigid_identity(),
                                       .after = rigid_identity(),
                                       .kind = MATERIAL_BONE,
-                                      .name = subject_segment_title((segment_id)s)}};
-        subject_segment_color((segment_id)s, p->part.rgb);
+                                      .name = segment_title((segment_id)s)}};
+        segment_color((segment_id)s, p->part.rgb);
         anatomy_apart((segment_id)s, &a->frame, 18, p->apart_mm);
     }
     gallery_style style = gallery_style_default();

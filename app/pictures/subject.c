@@ -28,8 +28,8 @@ void pictures_subject_make(const pictures_input *in, pictures_subject *out)
                             .before = rigid_identity(),
                             .after = in->move[i],
                             .kind = MATERIAL_BONE,
-                            .name = subject_segment_title((segment_id)i)};
-        subject_segment_color((segment_id)i, p->rgb);
+                            .name = segment_title((segment_id)i)};
+        segment_color((segment_id)i, p->rgb);
     }
 }
 

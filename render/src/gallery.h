@@ -1,4 +1,4 @@
-/* Private: what a gallery keeps, and who draws a panel. */
+/* Private: what a gallery keeps. */
 #pragma once
 #include "render/gallery.h"
 
@@ -21,8 +21,3 @@ const double *gallery_map(const gallery *g, panel_show show, label_map *bar);
 bool part_moves(const subject_part *p);
 /* Seen from there, with the gallery's zoom, centre and perspective. */
 camera gallery_camera(const gallery *g, const panel *p, int width, int height);
-
-/* One panel, with its labels but the caption. *out is created; the caller frees it. */
-bool panel_draw(gallery *g, const panel *p, int width, int height, image *out, err *e) MUST_CHECK;
-bool contour_draw(gallery *g, int width, int height, image *out, err *e) MUST_CHECK;
-bool tracing_draw(gallery *g, int width, int height, image *out, err *e) MUST_CHECK;

@@ -1,4 +1,5 @@
-#include "render/src/gallery.h"
+#include "render/src/panel_draw.h"
+#include "render/src/profile.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include <stdio.h>

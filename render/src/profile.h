@@ -28,3 +28,8 @@ void profile_dot(const profile *f, const double at[3], double radius, const doub
 /* Where the midsagittal plane cuts the skin or the bones of a pose; what does not move in its own colour. */
 void profile_skin(const profile *f, bool after, double width);
 void profile_bones(const profile *f, bool after, double width);
+
+/* Whole panels of it, with their labels: profiles over a grid; lines and planes of cephalometry. *out is created; the
+ * caller frees it. */
+bool contour_draw(gallery *g, int width, int height, image *out, err *e) MUST_CHECK;
+bool tracing_draw(gallery *g, int width, int height, image *out, err *e) MUST_CHECK;

@@ -85,7 +85,7 @@ static inline void small_head_make(double jaw_mm, small_head *h)
                                     .after = rigid_translation((double[3]){0, -move[i], 0}),
                                     .kind = MATERIAL_BONE,
                                     .name = segment_name(id[i])};
-        subject_segment_color(id[i], h->part[i].rgb);
+        segment_color(id[i], h->part[i].rgb);
     }
     static const double corner[5][3] = {
         {-26, -64, -23}, {26, -64, -23}, {26, -20, -23}, {-26, -20, -23}, {-26, -64, -23}};

@@ -55,13 +55,6 @@ static const judge_pair pair_rows[JUDGE_PAIRS] = {
     {SEGMENT_MAXILLA, SEGMENT_PROXIMAL_RIGHT, "right ramus and tuberosity", 0},
     {SEGMENT_MAXILLA, SEGMENT_DISTAL, "mandible and maxilla", 0}};
 
-bool judge_relative(const plan_moves *m, segment_id still, segment_id moved, rigid *out)
-{
-    rigid back = rigid_inverse(&m->move[still]);
-    *out = rigid_compose(&back, &m->move[moved]);
-    return vec_norm(out->t) > 1e-9 || rigid_angle(out) > 1e-9;
-}
-
 static bool is_sagittal(const judge_cut *c) { return c->contact == LIMIT_BSSO_CONTACT; }
 
 static void measure_contact(const judge *j, const judge_cut *c, cut_state *out)

@@ -1,40 +1,8 @@
+#include "app/planner/judge/judge.h"
 #include "app/planner/judge/parts.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
-#include <assert.h>
 #include <stdlib.h>
-
-finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value, bool estimated,
-                       const char *note)
-{
-    assert(out->count < FINDINGS_MAX);
-    finding *f = &out->finding[out->count];
-    *f = (finding){.limit = id,
-                   .where = where,
-                   .value = value,
-                   .level = limit_judge(&c->limits[id], value),
-                   .margin = isnan(value) ? HUGE_VAL : limit_margin(&c->limits[id], value),
-                   .estimated = estimated,
-                   .segment_a = -1,
-                   .segment_b = -1,
-                   .note = note};
-    if (estimated && f->level == LIMIT_STOP) f->level = LIMIT_CAUTION;
-    if (f->level > out->worst ||
-        (f->level == out->worst && out->reason >= 0 && f->margin < out->finding[out->reason].margin))
-        out->reason = out->count;
-    if (f->level > out->worst) out->worst = f->level;
-    out->count++;
-    return f;
-}
-
-bool judge_landmark(const judge *j, const plan_moves *m, const char *label, double out[3])
-{
-    const landmarks *l = &j->prepared->points;
-    const landmark *p = landmarks_find(l, label);
-    if (!p) return false;
-    rigid_apply(&m->move[j->carrier[p - l->point]], p->xyz, out);
-    return true;
-}
 
 /* The bone that each landmark lies on, or is nearest to. */
 static void find_carriers(judge *j)

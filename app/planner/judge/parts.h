@@ -1,6 +1,9 @@
 /* judge_parts: what the files of judge share. */
 #pragma once
-#include "app/planner/judge/judge.h"
+#include "app/planner/judge/judgement.h"
+#include "app/planner/patient/prepared.h"
+#include "app/planner/plan/plan_moves.h"
+#include "geometry/clash.h"
 #include "geometry/cut_face.h"
 
 enum { CUT_PLACES_MAX = 4, JUDGE_CUTS = 4, JUDGE_PAIRS = 6 };
@@ -37,7 +40,7 @@ typedef struct judge_pair { /* bones that no cut parted */
     double rest_mm; /* depth of overlap in the scan */
 } judge_pair;
 
-struct judge {
+typedef struct judge {
     const case_file *patient;
     const prepared *prepared;
     int *carrier;    /* [points.count] the segment each landmark moves with */
@@ -52,7 +55,7 @@ struct judge {
     double tooth_rest_mm;  /* overlap of the crowns in the scan */
     int32_t bite_count;
     double *bite; /* [3*bite_count] points of the lower teeth's chewing side */
-};
+} judge;
 
 /* Where the plan puts a landmark; false if the case has none. */
 bool judge_landmark(const judge *j, const plan_moves *m, const char *label, double out[3]);

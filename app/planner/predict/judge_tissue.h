@@ -1,7 +1,7 @@
 /* judge_tissue: the limits that only the solved soft tissue answers. */
 #pragma once
 #include "app/planner/predict/carried.h"
-#include "app/planner/judge/judge.h"
+#include "app/planner/judge/judgement.h"
 #include "sim/equilibrium.h"
 
 /* Appends them to the judgement of the bones. points NULL (the solve failed): what needs the face is not judged. */

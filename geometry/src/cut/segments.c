@@ -28,3 +28,16 @@ void segment_color(segment_id id, double rgb[3])
     };
     memcpy(rgb, color[id], sizeof color[id]);
 }
+
+const char *segment_title(segment_id id)
+{
+    static const char *const title[SEGMENT_COUNT] = {
+        [SEGMENT_CRANIUM] = "cranium",
+        [SEGMENT_MAXILLA] = "maxilla",
+        [SEGMENT_DISTAL] = "distal mandible",
+        [SEGMENT_PROXIMAL_LEFT] = "proximal, left",
+        [SEGMENT_PROXIMAL_RIGHT] = "proximal, right",
+        [SEGMENT_CHIN] = "chin",
+    };
+    return title[id];
+}
