@@ -14,7 +14,7 @@ extern "C" {
 #endif
 
 typedef enum move_kind {
-    MOVE_NONE,   /* the segment stays, or takes the short form */
+    MOVE_NONE,   /* the segment stays */
     MOVE_ANGLES, /* translation and angles about a pivot */
     MOVE_RIGID   /* the whole motion */
 } move_kind;
@@ -27,6 +27,17 @@ typedef struct segment_move {
     rigid motion;       /* of MOVE_RIGID */
 } segment_move;
 
+/* The six ways to move a piece of bone: along the head's axes, mm, and about them, degrees with the signs above. */
+typedef enum rig_axis {
+    RIG_FORWARD,
+    RIG_UP,
+    RIG_LEFT, /* the patient's */
+    RIG_PITCH,
+    RIG_YAW,
+    RIG_ROLL,
+    RIG_AXES
+} rig_axis;
+
 /* The whole mandible about the condyles (q_m). Zero: the jaw stays closed. */
 typedef struct jaw_motion {
     double open_deg;       /* about the axis through both condyles */
@@ -37,10 +48,6 @@ typedef struct jaw_motion {
 } jaw_motion;
 
 typedef struct rig_controls {
-    /* short form (q_o): along the frame's anterior and up directions */
-    double maxilla_advance_mm, maxilla_impaction_mm;
-    double mandible_advance_mm;       /* of the distal segment */
-    double chin_advance_mm;           /* relative to the distal segment */
     segment_move move[SEGMENT_COUNT]; /* of the chin: relative to the distal segment, in rest position */
     jaw_motion jaw;
 } rig_controls;
@@ -50,14 +57,20 @@ rig_controls rig_controls_default(void); /* nothing moves */
 /* Rest to planned position of every segment. The chin rides on the distal segment: its own move first, then
  * the distal one's. A proximal segment that is not named stays, so its condyle keeps its seat. The jaw motion
  * comes last and carries distal, chin and both proximal segments together. condyle: left, right, in mm LPS;
- * needed (else NULL) by a jaw motion. Refuses (ERR_INPUT) numbers that are not finite, a moved cranium, both
- * forms for one segment, a jaw motion without condyles or with condyles less than 40 mm apart or on the wrong
- * sides. */
+ * needed (else NULL) by a jaw motion. Refuses (ERR_INPUT) numbers that are not finite, a moved cranium, a jaw
+ * motion without condyles or with condyles less than 40 mm apart or on the wrong sides. */
 bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3], rigid motion[SEGMENT_COUNT],
                 err *e) MUST_CHECK;
 
 /* One move of a segment, as above. */
 rigid rig_segment_motion(const segment_move *m, const head_frame *f);
+/* Adds a shift of `by` mm, or a turn of `by` degrees, to a move; one that is none becomes MOVE_ANGLES. A whole motion
+ * (MOVE_RIGID) takes shifts only. */
+void rig_move(segment_move *m, rig_axis axis, double by, const head_frame *f);
+/* How far a move with angles shifts along or turns about an axis, mm or degrees. */
+double rig_moved(const segment_move *m, rig_axis axis, const head_frame *f);
+double *rig_angle(segment_move *m, rig_axis axis);  /* RIG_PITCH, RIG_YAW or RIG_ROLL */
+double *rig_jaw_part(jaw_motion *j, rig_axis axis); /* a turn, or RIG_FORWARD: protrusion */
 /* The angles of a motion's rotation in the same order and sense: turning by them gives it back. |roll| <= 90. */
 void rig_angles(const rigid *motion, const head_frame *f, double *pitch_deg, double *yaw_deg, double *roll_deg);
 /* The jaw alone: x -> c + glide + yaw(roll(open(x - c))), c midway between the condyles. */

@@ -54,25 +54,31 @@ static bool take_word(const char *word, int axes, const case_file *c, audit_sett
     return ok;
 }
 
+/* A map is of use by default: of two sides of the box, or of a bone and what rides on it. */
+static bool make_a_pair(const control *a, const control *b)
+{
+    bool rides = a->segment == SEGMENT_DISTAL && b->segment == SEGMENT_CHIN && a->axis == b->axis;
+    return rides || (a->audit == CONTROL_AUDIT_BOX && b->audit == CONTROL_AUDIT_BOX);
+}
+
+/* What the table of controls asks for, as far as the case cuts the bones free. */
 static bool take_default(const case_file *c, audit_settings *s, err *e)
 {
-    static const struct {
-        const char *word;
-        int axes;
-        segment_id needs[2];
-    } all[] = {{"maxilla_advance_mm", 1, {SEGMENT_MAXILLA, SEGMENT_MAXILLA}},
-               {"maxilla_impaction_mm", 1, {SEGMENT_MAXILLA, SEGMENT_MAXILLA}},
-               {"mandible_advance_mm", 1, {SEGMENT_DISTAL, SEGMENT_DISTAL}},
-               {"chin_advance_mm", 1, {SEGMENT_CHIN, SEGMENT_CHIN}},
-               {"maxilla_advance_mm,maxilla_impaction_mm", 2, {SEGMENT_MAXILLA, SEGMENT_MAXILLA}},
-               {"maxilla_advance_mm,mandible_advance_mm", 2, {SEGMENT_MAXILLA, SEGMENT_DISTAL}},
-               {"maxilla_impaction_mm,mandible_advance_mm", 2, {SEGMENT_MAXILLA, SEGMENT_DISTAL}},
-               {"mandible_advance_mm,chin_advance_mm", 2, {SEGMENT_DISTAL, SEGMENT_CHIN}},
-               {"maxilla_advance_mm,maxilla_impaction_mm,mandible_advance_mm", 3, {SEGMENT_MAXILLA, SEGMENT_DISTAL}}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (case_file_frees(c, all[i].needs[0]) && case_file_frees(c, all[i].needs[1]) &&
-            !take_word(all[i].word, all[i].axes, c, s, e))
-            return false;
+    audit_request box = {0};
+    int sides = 0;
+    for (int i = 0; i < CONTROL_COUNT; i++) {
+        int k;
+        const control *x = &controls[i];
+        sides += x->audit == CONTROL_AUDIT_BOX;
+        if (x->audit == CONTROL_AUDIT_NONE || !case_file_frees(c, x->segment)) continue;
+        if (!take_control(x->name, c, s, &k, e)) return false;
+        add_request(s, &(audit_request){1, {k}});
+        if (x->audit == CONTROL_AUDIT_BOX) box.axis[box.axis_count++] = k;
+    }
+    for (int a = 0; a < s->control_count; a++)
+        for (int b = a + 1; b < s->control_count; b++)
+            if (make_a_pair(&s->control[a], &s->control[b])) add_request(s, &(audit_request){2, {a, b}});
+    if (box.axis_count == sides) add_request(s, &box);
     return s->request_count > 0 || err_at(e, ERR_INPUT, c->path, 0, NULL, "cuts no bone, so that nothing can be moved");
 }
 

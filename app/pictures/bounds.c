@@ -61,17 +61,8 @@ static void make_kinds(const feasible_map *m, struct kinds *out, int32_t *kind)
 
 static const char *title_of(const control *x, char text[TEXT])
 {
-    static const struct {
-        const char *name, *title;
-    } known[] = {{"maxilla_advance_mm", "maxilla forwards"},
-                 {"maxilla_impaction_mm", "maxilla upwards (impaction)"},
-                 {"mandible_advance_mm", "mandible forwards"},
-                 {"chin_advance_mm", "chin forwards"}};
-    const char *title = NULL;
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (!strcmp(known[i].name, x->name)) title = known[i].title;
-    if (title)
-        snprintf(text, TEXT, "%s, mm", title);
+    if (x->title)
+        snprintf(text, TEXT, "%s, %s", x->title, x->unit);
     else
         snprintf(text, TEXT, "%s", x->name);
     return text;

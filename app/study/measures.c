@@ -4,9 +4,9 @@
  * months (PMC6173856); thickness: Veltkamp and others 2002 (AJODO), mean and deviation of 62 patients. An
  * open window asks for the sign alone. */
 #include "app/study/measures.h"
+#include "app/planner/plan/controls.h"
 #include "geometry/cephalometry.h"
 #include "geometry/mem.h"
-#include "geometry/rig.h"
 #include "geometry/vec.h"
 #include <assert.h>
 #include <math.h>
@@ -29,19 +29,21 @@ enum {
     MOVES
 };
 const standard_move study_moves[] = {
-    [LF_ADVANCE] = {"Le Fort I advance 5 mm", "lf_advance", .maxilla_mm = {5, 0}},
-    [LF_IMPACT] = {"Le Fort I impaction 4 mm", "lf_impact", .maxilla_mm = {0, 4}},
-    [LF_SETBACK] = {"Le Fort I setback 3 mm", "lf_setback", .maxilla_mm = {-3, 0}},
-    [LF_DOWN] = {"Le Fort I down-graft 3 mm", "lf_down", .maxilla_mm = {0, -3}},
-    [MAND_ADVANCE] = {"mandibular advance 6 mm", "mand_advance", .mandible_mm = 6},
-    [MAND_SETBACK] = {"mandibular setback 5 mm", "mand_setback", .mandible_mm = -5},
-    [AUTOROTATION] = {"autorotation 2 degrees", "autorotation", .close_deg = 2},
-    [CHIN_ADVANCE] = {"genioplasty advance 6 mm", "chin_advance", .chin_mm = {6, 0}},
-    [CHIN_SETBACK] = {"genioplasty setback 4 mm", "chin_setback", .chin_mm = {-4, 0}},
-    [CHIN_LONGER] = {"genioplasty lengthening 4 mm", "chin_longer", .chin_mm = {0, -4}},
-    [CHIN_SHORTER] = {"genioplasty shortening 4 mm", "chin_shorter", .chin_mm = {0, 4}},
-    [MAND_AND_CHIN] = {"mandible 6 mm, chin 5 mm more", "mand_and_chin", .mandible_mm = 6, .chin_mm = {5, 0}},
-    [MMA] = {"both jaws advance 10 mm", "mma", .maxilla_mm = {10, 0}, .mandible_mm = 10},
+    [LF_ADVANCE] = {"Le Fort I advance 5 mm", "lf_advance", {{"maxilla_advance_mm", 5}}},
+    [LF_IMPACT] = {"Le Fort I impaction 4 mm", "lf_impact", {{"maxilla_impaction_mm", 4}}},
+    [LF_SETBACK] = {"Le Fort I setback 3 mm", "lf_setback", {{"maxilla_advance_mm", -3}}},
+    [LF_DOWN] = {"Le Fort I down-graft 3 mm", "lf_down", {{"maxilla_impaction_mm", -3}}},
+    [MAND_ADVANCE] = {"mandibular advance 6 mm", "mand_advance", {{"mandible_advance_mm", 6}}},
+    [MAND_SETBACK] = {"mandibular setback 5 mm", "mand_setback", {{"mandible_advance_mm", -5}}},
+    [AUTOROTATION] = {"autorotation 2 degrees", "autorotation", {{"jaw.pitch_deg", -2}}},
+    [CHIN_ADVANCE] = {"genioplasty advance 6 mm", "chin_advance", {{"chin_advance_mm", 6}}},
+    [CHIN_SETBACK] = {"genioplasty setback 4 mm", "chin_setback", {{"chin_advance_mm", -4}}},
+    [CHIN_LONGER] = {"genioplasty lengthening 4 mm", "chin_longer", {{"chin_lift_mm", -4}}},
+    [CHIN_SHORTER] = {"genioplasty shortening 4 mm", "chin_shorter", {{"chin_lift_mm", 4}}},
+    [MAND_AND_CHIN] = {"mandible 6 mm, chin 5 mm more",
+                       "mand_and_chin",
+                       {{"mandible_advance_mm", 6}, {"chin_advance_mm", 5}}},
+    [MMA] = {"both jaws advance 10 mm", "mma", {{"maxilla_advance_mm", 10}, {"mandible_advance_mm", 10}}},
 };
 const int study_move_count = MOVES;
 
@@ -121,15 +123,12 @@ bool study_move_motion(const standard_move *m, const prepared *p, rigid motion[S
     rig_controls c = rig_controls_default();
     const landmark *left = landmarks_find(&p->points, "Co_L"), *right = landmarks_find(&p->points, "Co_R");
     double condyle[2][3] = {{0}};
-    c.maxilla_advance_mm = m->maxilla_mm[FORWARD];
-    c.maxilla_impaction_mm = m->maxilla_mm[UP];
-    c.mandible_advance_mm = m->mandible_mm;
-    if (m->chin_mm[FORWARD] != 0 || m->chin_mm[UP] != 0) {
-        c.move[SEGMENT_CHIN].kind = MOVE_ANGLES;
-        vec_scale(p->frame.posterior, -m->chin_mm[FORWARD], c.move[SEGMENT_CHIN].translate_mm);
-        vec_axpy(c.move[SEGMENT_CHIN].translate_mm, m->chin_mm[UP], p->frame.up, c.move[SEGMENT_CHIN].translate_mm);
+    for (size_t i = 0; i < sizeof m->control / sizeof *m->control && m->control[i].name; i++) {
+        control x;
+        bool known = control_named(m->control[i].name, &x);
+        assert(known);
+        control_apply(&x, m->control[i].value, &p->frame, &c);
     }
-    c.jaw.open_deg = -m->close_deg;
     if (left && right) {
         vec_copy(left->xyz, condyle[0]);
         vec_copy(right->xyz, condyle[1]);

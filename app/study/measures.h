@@ -3,9 +3,11 @@
 #include "app/study/study.h"
 
 typedef struct standard_move {
-    const char *name, *file;                       /* file: no spaces */
-    double maxilla_mm[2], mandible_mm, chin_mm[2]; /* forward and up; the chin's on top of the mandible's */
-    double close_deg;                              /* the jaw turns shut about the condyles: autorotation */
+    const char *name, *file; /* file: no spaces */
+    struct {
+        const char *name; /* of a control, or NULL */
+        double value;
+    } control[2];
 } standard_move;
 extern const standard_move study_moves[];
 extern const int study_move_count;

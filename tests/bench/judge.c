@@ -78,13 +78,13 @@ int main(int argc, char **argv)
         const segment_id long_form[2] = {SEGMENT_MAXILLA, SEGMENT_DISTAL};
         for (int k = 0; k < 2; k++) {
             plan_segment *s = &plan.segment[long_form[k]];
-            *s = (plan_segment){.form = FORM_ANGLES, .pitch_deg = draw(-3, 3), .yaw_deg = draw(-3, 3)};
-            s->translate_mm[0] = draw(-3, 3);
-            s->translate_mm[1] = k ? draw(-12, 10) : draw(-8, 5);
-            s->translate_mm[2] = draw(-4, 5);
+            s->move = (segment_move){.kind = MOVE_ANGLES, .pitch_deg = draw(-3, 3), .yaw_deg = draw(-3, 3)};
+            s->move.translate_mm[0] = draw(-3, 3);
+            s->move.translate_mm[1] = k ? draw(-12, 10) : draw(-8, 5);
+            s->move.translate_mm[2] = draw(-4, 5);
         }
-        plan.segment[SEGMENT_CHIN].form = FORM_SHORT;
-        plan.chin_advance_mm = draw(-5, 10);
+        plan.segment[SEGMENT_CHIN].short_form = true;
+        plan.value[CONTROL_CHIN_ADVANCE] = draw(-5, 10);
         if (!plan_moves_set(&plan, &c, &p.points, &moves[i], &ignored)) return 1;
         issue_list_free(&ignored);
     }

@@ -49,7 +49,7 @@ static int drop_head(void **state)
 static plan_file still(void)
 {
     plan_file p = plan_file_default();
-    p.segment[SEGMENT_MAXILLA].form = p.segment[SEGMENT_DISTAL].form = FORM_ANGLES;
+    p.segment[SEGMENT_MAXILLA].move.kind = p.segment[SEGMENT_DISTAL].move.kind = MOVE_ANGLES;
     return p;
 }
 
@@ -114,7 +114,7 @@ static void at_rest_nothing_stops_and_nothing_is_fine_in_silence(void **state)
 
 static void both_down(plan_file *p, double mm)
 {
-    p->segment[SEGMENT_MAXILLA].translate_mm[2] = p->segment[SEGMENT_DISTAL].translate_mm[2] = -mm;
+    p->segment[SEGMENT_MAXILLA].move.translate_mm[2] = p->segment[SEGMENT_DISTAL].move.translate_mm[2] = -mm;
 }
 
 static void a_gap_stops_where_it_needs_a_graft(void **state)
@@ -125,7 +125,7 @@ static void a_gap_stops_where_it_needs_a_graft(void **state)
     assert_int_equal(by, LIMIT_LE_FORT_GAP);
 }
 
-static void lower_up(plan_file *p, double mm) { p->segment[SEGMENT_DISTAL].translate_mm[2] = mm; }
+static void lower_up(plan_file *p, double mm) { p->segment[SEGMENT_DISTAL].move.translate_mm[2] = mm; }
 
 static void teeth_stop_the_mandible(void **state)
 {
@@ -138,10 +138,10 @@ static void teeth_stop_the_mandible(void **state)
 static void lower_closes(plan_file *p, double deg)
 {
     plan_segment *s = &p->segment[SEGMENT_DISTAL];
-    s->pitch_deg = -deg;
+    s->move.pitch_deg = -deg;
     s->has_pivot_point = true;
-    s->pivot_mm[1] = -20;
-    s->pivot_mm[2] = -20.8;
+    s->move.pivot_mm[1] = -20;
+    s->move.pivot_mm[2] = -20.8;
 }
 
 static void closing_stops_where_the_front_teeth_meet(void **state)
@@ -153,7 +153,7 @@ static void closing_stops_where_the_front_teeth_meet(void **state)
     assert_int_equal(by, LIMIT_TOOTH_OVERLAP);
 }
 
-static void upper_up(plan_file *p, double mm) { p->segment[SEGMENT_MAXILLA].translate_mm[2] = mm; }
+static void upper_up(plan_file *p, double mm) { p->segment[SEGMENT_MAXILLA].move.translate_mm[2] = mm; }
 
 static void bone_to_be_trimmed_is_measured(void **state)
 {

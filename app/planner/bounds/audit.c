@@ -17,7 +17,7 @@ static bool make_box(audit *a, int k, err *e)
     if (!isfinite(x->low) || !isfinite(x->high))
         return err_at(e, ERR_INPUT, a->patient->path, 0, NULL,
                       "leaves limits.%s.stop open, so that there is no end to where %s may be looked at",
-                      limit_default[x->limit].name, x->name);
+                      limit_default[control_limit(x->segment, x->axis)].name, x->name);
     if (!(base >= x->low && base <= x->high))
         return err_at(e, ERR_INPUT, a->base.path, 0, NULL,
                       "has %s %.4g, outside %g to %g: there is nothing to audit around it", x->name, base, x->low,
@@ -64,7 +64,7 @@ void audit_key(const audit *a, char key[HASH_TEXT_SIZE])
         }
     for (int b = 0; b < SEGMENT_COUNT; b++) { /* about what an angle turns */
         content_hash_text(h, "pivot", a->base.segment[b].pivot);
-        content_hash_bytes(h, a->base.segment[b].pivot_mm, sizeof a->base.segment[b].pivot_mm);
+        content_hash_bytes(h, a->base.segment[b].move.pivot_mm, sizeof a->base.segment[b].move.pivot_mm);
     }
     issue_list_free(&issues);
     content_hash_end(h, key);
@@ -75,7 +75,7 @@ bool audit_judge(const audit *a, const int32_t at[SAMPLE_AXES_MAX], judgement *o
     plan_file p = a->base;
     issue_list issues = {0};
     for (int k = 0; k < a->settings.control_count; k++)
-        if (at[k]) control_set(&a->settings.control[k], &a->prepared->frame, audit_value(a, k, at[k]), &p);
+        if (at[k]) plan_vary_set(&a->settings.control[k], &a->prepared->frame, audit_value(a, k, at[k]), &p);
     bool ok = plan_moves_set(&p, a->patient, &a->prepared->points, moves, &issues);
     if (!ok && issue_none_is_error(&issues, e)) err_set(e, ERR_INTERNAL, "the plan could not be made");
     issue_list_free(&issues);
@@ -132,9 +132,9 @@ bool audit_make(const case_file *c, const prepared *p, const plan_file *base, co
     while (s->spacing / a->spacing > s->tolerance) a->spacing *= 2;
     a->step = s->spacing / a->spacing;
     bool ok = true;
-    for (int k = 0; ok && k < s->control_count; k++) ok = control_open_plan(&s->control[k], &p->frame, &a->base, e);
+    for (int k = 0; ok && k < s->control_count; k++) ok = plan_vary_open_for(&s->control[k], &p->frame, &a->base, e);
     for (int k = 0; ok && k < s->control_count; k++) {
-        a->base_value[k] = control_value(&s->control[k], &p->frame, &a->base);
+        a->base_value[k] = plan_vary_value(&s->control[k], &p->frame, &a->base);
         ok = make_box(a, k, e);
     }
     ok = ok && judge_create(c, p, &a->judge, e) && find_throughout(a, e);

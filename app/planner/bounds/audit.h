@@ -1,6 +1,6 @@
 /* audit: how far the controls of a plan may go on a case, and what stops them. */
 #pragma once
-#include "app/planner/plan/control.h"
+#include "app/planner/plan/plan_vary.h"
 #include "app/planner/bounds/feasible_line.h"
 #include "app/planner/bounds/feasible_map.h"
 #include "app/planner/store/journal.h"

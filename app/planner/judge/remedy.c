@@ -1,64 +1,32 @@
 #include "app/planner/judge/remedy.h"
 #include "app/planner/judge/parts.h"
-#include "geometry/vec.h"
+#include "app/planner/plan/plan_vary.h"
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
 static const double fine_step = 0.05, first_step = 0.5, stride = 3, reach_mm = 4.5;
 
-enum { TURNS = 3, SHIFTS = 6 };
-
-typedef struct change {
+typedef struct change { /* along an axis of the head, there or back; a turn is only made less */
     segment_id segment;
-    int kind; /* 0..5: shift forwards, back, up, down, left, right; 6..8: less pitch, yaw, roll */
+    rig_axis axis;
+    bool back;
 } change;
-
-/* All segments in long form, so that every move can be changed. */
-static plan_file opened(const plan_file *plan, const head_frame *f)
-{
-    plan_file p = *plan;
-    const double mm[3][2] = {
-        {p.maxilla_advance_mm, p.maxilla_impaction_mm}, {p.mandible_advance_mm, 0}, {p.chin_advance_mm, 0}};
-    static const segment_id segment[3] = {SEGMENT_MAXILLA, SEGMENT_DISTAL, SEGMENT_CHIN};
-    for (int i = 0; i < 3; i++) {
-        plan_segment *s = &p.segment[segment[i]];
-        if (s->form != FORM_SHORT) continue;
-        s->form = FORM_ANGLES;
-        vec_scale(f->posterior, -mm[i][0], s->translate_mm);
-        vec_axpy(s->translate_mm, mm[i][1], f->up, s->translate_mm);
-    }
-    p.maxilla_advance_mm = p.maxilla_impaction_mm = p.mandible_advance_mm = p.chin_advance_mm = 0;
-    return p;
-}
-
-static double *angle(plan_segment *s, int kind)
-{
-    double *const angles[TURNS] = {&s->pitch_deg, &s->yaw_deg, &s->roll_deg};
-    return angles[kind - SHIFTS];
-}
 
 /* The most that this change can be; 0: it cannot. */
 static double most(const plan_file *p, change c)
 {
-    plan_segment s = p->segment[c.segment];
-    if (s.form == FORM_NONE) return 0;
-    if (c.kind < SHIFTS) return reach_mm;
-    return s.form == FORM_ANGLES ? fabs(*angle(&s, c.kind)) : 0;
+    segment_move m = p->segment[c.segment].move;
+    if (m.kind == MOVE_NONE) return 0;
+    if (c.axis < RIG_PITCH) return reach_mm;
+    return m.kind == MOVE_ANGLES ? fabs(*rig_angle(&m, c.axis)) : 0;
 }
 
 static void apply(plan_file *p, const head_frame *f, change c, double by)
 {
-    plan_segment *s = &p->segment[c.segment];
-    if (c.kind >= SHIFTS) {
-        double *a = angle(s, c.kind);
-        *a -= copysign(by, *a);
-        return;
-    }
-    const double *axis = c.kind < 2 ? f->posterior : c.kind < 4 ? f->up : f->left;
-    double *t = s->form == FORM_MATRIX ? s->motion.t : s->translate_mm;
-    static const double sign[SHIFTS] = {-1, 1, 1, -1, 1, -1};
-    vec_axpy(t, sign[c.kind] * by, axis, t);
+    segment_move *m = &p->segment[c.segment].move;
+    bool turn = c.axis >= RIG_PITCH, back = turn ? *rig_angle(m, c.axis) > 0 : c.back;
+    rig_move(m, c.axis, back ? -by : by, f);
 }
 
 typedef void (*judge_part)(const judge *, const plan_moves *, judgement *);
@@ -155,29 +123,33 @@ static bool concerns(const finding *f, segment_id s)
 
 static void say(change c, double by, char text[REMEDY_TEXT_SIZE])
 {
-    static const char *const how[SHIFTS + TURNS] = {"mm forwards",    "mm back",        "mm up",
-                                                    "mm down",        "mm to the left", "mm to the right",
-                                                    "deg less pitch", "deg less yaw",   "deg less roll"};
-    const char *bone = c.segment == SEGMENT_DISTAL ? "mandible" : segment_name(c.segment);
-    snprintf(text, REMEDY_TEXT_SIZE, "%s %.2f %s", bone, by, how[c.kind]);
+    static const char *const how[RIG_AXES][2] = {[RIG_FORWARD] = {"mm forwards", "mm back"},
+                                                 [RIG_UP] = {"mm up", "mm down"},
+                                                 [RIG_LEFT] = {"mm to the left", "mm to the right"},
+                                                 [RIG_PITCH] = {NULL, "deg less pitch"},
+                                                 [RIG_YAW] = {NULL, "deg less yaw"},
+                                                 [RIG_ROLL] = {NULL, "deg less roll"}};
+    snprintf(text, REMEDY_TEXT_SIZE, "%s %.2f %s", control_piece_name(c.segment), by, how[c.axis][c.back]);
 }
 
 bool remedy_find(const judge *j, const case_file *c, const prepared *p, const plan_file *plan, const judgement *now,
                  int which, char text[REMEDY_TEXT_SIZE])
 {
-    trial t = {.j = j, .c = c, .p = p, .plan = opened(plan, &p->frame), .now = now, .which = which};
+    trial t = {.j = j, .c = c, .p = p, .plan = *plan, .now = now, .which = which};
     double best = HUGE_VAL;
     plan_moves m;
     issue_list ignored = {0};
     text[0] = 0;
+    plan_vary_open(&t.plan, &p->frame);
     bool made = plan_moves_set(&t.plan, c, &p->points, &m, &ignored);
     issue_list_free(&ignored);
     if (!made) return false;
     t.first = part_of(j, &m, now, which);
     for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++) {
         if (!concerns(&now->finding[which], (segment_id)s)) continue;
-        for (int k = 0; k < SHIFTS + TURNS; k++) {
-            change one = {(segment_id)s, k};
+        for (int k = 0; k < 2 * RIG_AXES; k++) {
+            change one = {(segment_id)s, (rig_axis)(k / 2), k % 2};
+            if (one.axis >= RIG_PITCH && !one.back) continue;
             double by = least(&t, one, best - fine_step);
             if (by >= best) continue;
             best = by;

@@ -183,6 +183,14 @@ static bool set_paths(const char *path, case_file *c)
     return true;
 }
 
+/* The limits of moves have the names of what a plan says. */
+static bool names_a_move(const json_t *o)
+{
+    bool any = json_object_get(o, "segments");
+    for (int i = 0; i < LIMIT_MOVE_COUNT; i++) any |= json_object_get(o, limit_default[i].name) != NULL;
+    return any;
+}
+
 bool case_file_read(const char *path, case_file *out, issue_list *issues)
 {
     case_file *c = out;
@@ -201,9 +209,7 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues)
     }
     if (!json_is_object(f.root)) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL, "must be an object { ... }");
-    } else if (!json_object_get(f.root, "surfaces") && json_object_get(f.root, "gnathos") &&
-               (json_object_get(f.root, "segments") || json_object_get(f.root, "maxilla_advance_mm") ||
-                json_object_get(f.root, "mandible_advance_mm") || json_object_get(f.root, "chin_advance_mm"))) {
+    } else if (!json_object_get(f.root, "surfaces") && json_object_get(f.root, "gnathos") && names_a_move(f.root)) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL, "is a plan, not a case; a case names its surfaces");
     } else {
         fields_read(case_fields(), &f, f.root, "", c, issues);

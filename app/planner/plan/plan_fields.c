@@ -3,9 +3,18 @@
 #include <math.h>
 #include <pthread.h>
 
-#define PLAN(member, unit_, low_, high_, help_) NUMBER(plan_file, member, unit_, low_, high_, help_)
-#define SEGMENT(member, unit_, low_, high_, help_) NUMBER(plan_segment, member, unit_, low_, high_, help_)
-#define NOT_BUILT "Not built yet: only 0 is accepted."
+/* A row of the controls as a field. */
+#define CONTROL_FIELD(id, name_, unit_, kind_, segment_, axis_, low_, high_, default_, built_, audit_, title_, help_)  \
+    {                                                                                                                  \
+        .name = name_, .kind = FIELD_NUMBER, .offset = offsetof(plan_file, value[CONTROL_##id]), .unit = unit_,        \
+        FROM(low_), TO(high_), .help = (built_) ? (help_) : CONTROL_NOT_BUILT                                          \
+    }
+
+#define SEGMENT_ANGLE(member, help_)                                                                                   \
+    {                                                                                                                  \
+        .name = #member, .kind = FIELD_NUMBER, .offset = offsetof(plan_segment, move.member), .unit = "deg",           \
+        FROM(-90), TO(90), .help = help_                                                                               \
+    }
 
 static const field rows[] = {
     {.name = "gnathos",
@@ -17,14 +26,13 @@ static const field rows[] = {
      .kind = FIELD_TEXT,
      .offset = offsetof(plan_file, name),
      .help = "Shown in results; the file's name where absent."},
-    PLAN(maxilla_advance_mm, "mm", FROM(-100), TO(100), "Maxilla forwards (backwards where negative)."),
-    PLAN(maxilla_impaction_mm, "mm", FROM(-100), TO(100), "Maxilla upwards (downwards where negative)."),
-    PLAN(mandible_advance_mm, "mm", FROM(-100), TO(100), "Distal segment of the mandible forwards."),
-    PLAN(chin_advance_mm, "mm", FROM(-100), TO(100), "Chin forwards, relative to the distal segment."),
-    {.name = "override",
-     .kind = FIELD_TEXT,
-     .offset = offsetof(plan_file, override),
-     .help = "The reason why this plan may go beyond the case's limits; shown in results."},
+#define X(...) CONTROL_FIELD(__VA_ARGS__),
+    CONTROLS_OF_SEGMENTS(X)
+#undef X
+        {.name = "override",
+         .kind = FIELD_TEXT,
+         .offset = offsetof(plan_file, override),
+         .help = "The reason why this plan may go beyond the case's limits; shown in results."},
     {.name = "segments",
      .kind = FIELD_OTHER,
      .words = "an object with maxilla, distal, proximal_left, proximal_right, chin",
@@ -35,27 +43,29 @@ static const field rows[] = {
      FROM(1),
      TO(100),
      .help = "Number of equal parts in which the bones are moved."},
-    PLAN(jaw.pitch_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
-    PLAN(jaw.yaw_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
-    PLAN(jaw.roll_deg, "deg", FROM(-100), TO(100), NOT_BUILT),
-    PLAN(jaw.protrude_mm, "mm", FROM(-100), TO(100), NOT_BUILT),
-    {.name = "expressions", .kind = FIELD_OTHER, .words = "a list of six numbers from 0 to 1", .help = NOT_BUILT},
-    PLAN(rest, NULL, FROM(0), TO(1), NOT_BUILT),
+#define X(...) CONTROL_FIELD(__VA_ARGS__),
+    CONTROLS_OF_JAW(X)
+#undef X
+        {.name = "expressions",
+         .kind = FIELD_OTHER,
+         .words = "a list of six numbers from 0 to 1",
+         .help = CONTROL_NOT_BUILT},
+#define X(...) CONTROL_FIELD(__VA_ARGS__),
+    CONTROLS_OF_REST(X)
+#undef X
 };
 
 static const field segment_rows[] = {
     {.name = "translate_mm",
      .kind = FIELD_VEC3,
-     .offset = offsetof(plan_segment, translate_mm),
+     .offset = offsetof(plan_segment, move.translate_mm),
      .unit = "mm",
      FROM(-100),
      TO(100),
      .help = "Translation after the rotation, along the file's axes (LPS)."},
-    SEGMENT(pitch_deg, "deg", FROM(-90), TO(90), "Rotation about the head's left axis; positive turns the front down."),
-    SEGMENT(yaw_deg, "deg", FROM(-90), TO(90),
-            "Rotation about the head's vertical; positive turns the front to the left."),
-    SEGMENT(roll_deg, "deg", FROM(-90), TO(90),
-            "Rotation about the head's front-back axis; positive turns the left side down."),
+    SEGMENT_ANGLE(pitch_deg, "Rotation about the head's left axis; positive turns the front down."),
+    SEGMENT_ANGLE(yaw_deg, "Rotation about the head's vertical; positive turns the front to the left."),
+    SEGMENT_ANGLE(roll_deg, "Rotation about the head's front-back axis; positive turns the left side down."),
     {.name = "pivot",
      .kind = FIELD_OTHER,
      .words = "the label of a landmark, or three numbers [x, y, z] in mm",

@@ -3,16 +3,14 @@
 #include "geometry/transform_file.h"
 #include <string.h>
 
-static const struct short_field {
-    const char *name;
-    segment_id segment;
-} short_fields[] = {{"maxilla_advance_mm", SEGMENT_MAXILLA},
-                    {"maxilla_impaction_mm", SEGMENT_MAXILLA},
-                    {"mandible_advance_mm", SEGMENT_DISTAL},
-                    {"chin_advance_mm", SEGMENT_CHIN}};
-enum { SHORT_COUNT = sizeof short_fields / sizeof short_fields[0], PLACE_SIZE = 128 };
+enum { PLACE_SIZE = 128 };
 
-plan_file plan_file_default(void) { return (plan_file){.version = 1, .load_steps = 4}; }
+plan_file plan_file_default(void)
+{
+    plan_file p = {.version = 1, .load_steps = 4};
+    for (int i = 0; i < CONTROL_COUNT; i++) p.value[i] = controls[i].usual;
+    return p;
+}
 
 static const char *cut_for(segment_id s)
 {
@@ -31,7 +29,7 @@ static void read_pivot(const json_file *f, const json_t *v, const char *place, p
 {
     err e = {0};
     const char *label = json_string_value(v);
-    if (json_is_array(v) && json_file_vec3(f, v, place, s->pivot_mm, &e))
+    if (json_is_array(v) && json_file_vec3(f, v, place, s->move.pivot_mm, &e))
         s->has_pivot_point = true;
     else if (label && *label && strlen(label) < LANDMARK_LABEL_SIZE)
         strcpy(s->pivot, label);
@@ -58,7 +56,7 @@ static void read_matrix(const json_file *f, const json_t *v, const char *place, 
         }
         m[i] = json_number_value(one);
     }
-    if (!rigid_from_matrix(m, &s->motion, &e)) fields_issue(f, place, issues, "%s", e.text);
+    if (!rigid_from_matrix(m, &s->move.motion, &e)) fields_issue(f, place, issues, "%s", e.text);
 }
 
 static void read_segment(const json_file *f, const json_t *o, segment_id id, plan_segment *s, issue_list *issues)
@@ -74,10 +72,10 @@ static void read_segment(const json_file *f, const json_t *o, segment_id id, pla
     s->line = json_file_line(f, at);
     fields_read(plan_segment_fields(), f, o, at, s, issues);
     const json_t *pivot = json_object_get(o, "pivot");
-    s->form = FORM_ANGLES;
+    s->move.kind = MOVE_ANGLES;
     for (int i = 0; i < 2; i++) {
         if (!json_object_get(o, single[i])) continue;
-        s->form = FORM_MATRIX;
+        s->move.kind = MOVE_RIGID;
         snprintf(place, sizeof place, "%s/%s", at, single[i]);
         const char *key;
         json_t *value;
@@ -96,7 +94,7 @@ static void read_segment(const json_file *f, const json_t *o, segment_id id, pla
     snprintf(place, sizeof place, "%s/matrix", at);
     if (json_object_get(o, "matrix")) read_matrix(f, json_object_get(o, "matrix"), place, s, issues);
     snprintf(place, sizeof place, "%s/file", at);
-    if (*s->file && !transform_read(s->file, &s->motion, &e)) fields_issue(f, place, issues, "%s", e.text);
+    if (*s->file && !transform_read(s->file, &s->move.motion, &e)) fields_issue(f, place, issues, "%s", e.text);
 }
 
 static void read_segments(const json_file *f, const case_file *c, plan_file *p, issue_list *issues)
@@ -124,10 +122,11 @@ static void read_segments(const json_file *f, const case_file *c, plan_file *p, 
             fields_issue(f, place, issues,
                          "unknown segment; known are maxilla, distal, proximal_left, proximal_right, chin");
         else {
-            for (int i = 0; i < SHORT_COUNT; i++)
-                if ((int)short_fields[i].segment == id && json_object_get(f->root, short_fields[i].name))
+            for (int i = 0; i < CONTROL_COUNT; i++)
+                if (controls[i].kind == CONTROL_OF_SEGMENT && (int)controls[i].segment == id &&
+                    json_object_get(f->root, controls[i].name))
                     fields_issue(f, place, issues, "the %s segment is moved by %s too; use one of the two", key,
-                                 short_fields[i].name);
+                                 controls[i].name);
             check_freed(f, c, (segment_id)id, place, issues);
             read_segment(f, value, (segment_id)id, &p->segment[id], issues);
         }
@@ -136,48 +135,50 @@ static void read_segments(const json_file *f, const case_file *c, plan_file *p, 
 
 static void read_short(const json_file *f, const case_file *c, plan_file *p, issue_list *issues)
 {
-    const double *const value[SHORT_COUNT] = {&p->maxilla_advance_mm, &p->maxilla_impaction_mm, &p->mandible_advance_mm,
-                                              &p->chin_advance_mm};
-    for (int i = 0; i < SHORT_COUNT; i++) {
+    for (int i = 0; i < CONTROL_COUNT; i++) {
+        const control *x = &controls[i];
         char place[PLACE_SIZE];
-        snprintf(place, sizeof place, "/%s", short_fields[i].name);
-        if (!json_object_get(f->root, short_fields[i].name)) continue;
-        plan_segment *s = &p->segment[short_fields[i].segment];
-        if (s->form == FORM_NONE) *s = (plan_segment){.form = FORM_SHORT, .line = json_file_line(f, place)};
-        if (*value[i] != 0) check_freed(f, c, short_fields[i].segment, place, issues);
+        snprintf(place, sizeof place, "/%.60s", x->name);
+        if (x->kind != CONTROL_OF_SEGMENT || !json_object_get(f->root, x->name)) continue;
+        plan_segment *s = &p->segment[x->segment];
+        if (!s->line) s->line = json_file_line(f, place);
+        s->short_form = true;
+        if (p->value[i] != 0) check_freed(f, c, x->segment, place, issues);
+    }
+}
+
+static void read_expressions(const json_file *f, plan_file *p, issue_list *issues)
+{
+    enum { FIRST = CONTROL_EXPRESSION_0, COUNT = CONTROL_REST - FIRST };
+    const json_t *list = json_object_get(f->root, "expressions");
+    if (!list) return;
+    if (!json_is_array(list) || json_array_size(list) != COUNT) {
+        fields_issue(f, "/expressions", issues, "must be a list of six numbers from 0 to 1");
+        return;
+    }
+    for (size_t i = 0; i < COUNT; i++) {
+        const json_t *v = json_array_get(list, i);
+        const control *x = &controls[FIRST + i];
+        char place[PLACE_SIZE], got[96];
+        snprintf(place, sizeof place, "/expressions/%zu", i);
+        if (json_is_number(v) && json_number_value(v) >= x->low && json_number_value(v) <= x->high)
+            p->value[FIRST + i] = json_number_value(v);
+        else
+            fields_issue(f, place, issues, "is %s; must be a number from %g to %g",
+                         fields_value_words(v, got, sizeof got), x->low, x->high);
     }
 }
 
 static void refuse_unbuilt(const json_file *f, const plan_file *p, issue_list *issues)
 {
-    const struct {
-        const char *place;
-        double value;
-    } control[] = {{"/jaw/pitch_deg", p->jaw.pitch_deg},
-                   {"/jaw/yaw_deg", p->jaw.yaw_deg},
-                   {"/jaw/roll_deg", p->jaw.roll_deg},
-                   {"/jaw/protrude_mm", p->jaw.protrude_mm},
-                   {"/rest", p->rest}};
-    for (size_t i = 0; i < sizeof control / sizeof control[0]; i++)
-        if (control[i].value != 0)
-            fields_issue(f, control[i].place, issues, "is %g; this control is not built yet, it must stay 0",
-                         control[i].value);
-    const json_t *list = json_object_get(f->root, "expressions");
-    if (!list) return;
-    if (!json_is_array(list) || json_array_size(list) != 6) {
-        fields_issue(f, "/expressions", issues, "must be a list of six numbers from 0 to 1");
-        return;
-    }
-    for (size_t i = 0; i < 6; i++) {
-        const json_t *v = json_array_get(list, i);
-        char place[PLACE_SIZE], got[96];
-        snprintf(place, sizeof place, "/expressions/%zu", i);
-        if (!json_is_number(v) || json_number_value(v) < 0 || json_number_value(v) > 1)
-            fields_issue(f, place, issues, "is %s; must be a number from 0 to 1",
-                         fields_value_words(v, got, sizeof got));
-        else if (json_number_value(v) != 0)
-            fields_issue(f, place, issues, "is %g; this control is not built yet, it must stay 0",
-                         json_number_value(v));
+    for (int i = 0; i < CONTROL_COUNT; i++) {
+        const control *x = &controls[i];
+        char place[PLACE_SIZE];
+        if (x->built || p->value[i] == x->usual) continue;
+        int n = snprintf(place, sizeof place, "/%.60s", x->name); /* "jaw.yaw_deg", "expressions[1]" */
+        if (place[n - 1] == ']') place[n - 1] = 0;
+        for (char *at = place; (at = strpbrk(at, ".["));) *at = '/';
+        fields_issue(f, place, issues, "is %g; this control is not built yet, it must stay %g", p->value[i], x->usual);
     }
 }
 
@@ -205,6 +206,7 @@ bool plan_file_read(const char *path, const case_file *c, plan_file *out, issue_
         fields_read(plan_fields(), &f, f.root, "", &p, issues);
         read_short(&f, c, &p, issues);
         read_segments(&f, c, &p, issues);
+        read_expressions(&f, &p, issues);
         refuse_unbuilt(&f, &p, issues);
         const json_t *why = json_object_get(f.root, "override");
         if (json_is_string(why) && strspn(json_string_value(why), " \t") == json_string_length(why))

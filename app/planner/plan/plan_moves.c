@@ -20,15 +20,17 @@ const landmark *plan_moves_reference(const landmarks *l, segment_id s)
     return NULL;
 }
 
-/* The segment's own move; false after an issue. */
+static bool is_named(const plan_segment *s) { return s->short_form || s->move.kind != MOVE_NONE; }
+
+/* The segment's own move, in its long form; false after an issue. */
 static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segment_move *out, issue_list *issues)
 {
     const plan_segment *s = &p->segment[id];
     const landmark *named = *s->pivot ? landmarks_find(l, s->pivot) : NULL;
     char where[64];
     snprintf(where, sizeof where, "segments.%s", segment_name(id));
-    *out = (segment_move){.kind = MOVE_NONE};
-    if (s->form == FORM_NONE) return true;
+    *out = s->move;
+    if (!is_named(s)) return true;
     const landmark *usual = plan_moves_reference(l, id);
     if (!usual) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, p->path, s->line, where,
@@ -40,14 +42,7 @@ static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segm
                   "pivot \"%s\" is not a landmark of this case", s->pivot);
         return false;
     }
-    const double *pivot = s->has_pivot_point ? s->pivot_mm : named ? named->xyz : usual->xyz;
-    out->pitch_deg = s->pitch_deg;
-    out->yaw_deg = s->yaw_deg;
-    out->roll_deg = s->roll_deg;
-    vec_copy(s->translate_mm, out->translate_mm);
-    vec_copy(pivot, out->pivot_mm);
-    out->motion = s->motion;
-    if (s->form != FORM_SHORT) out->kind = s->form == FORM_ANGLES ? MOVE_ANGLES : MOVE_RIGID;
+    if (!s->has_pivot_point) vec_copy(named ? named->xyz : usual->xyz, out->pivot_mm);
     return true;
 }
 
@@ -57,7 +52,7 @@ static void check_limit(const plan_file *p, const case_file *c, segment_id id, l
 {
     const limit_range *r = &c->limits[l];
     if (limit_judge(r, value) != LIMIT_STOP) return;
-    bool excused = *p->override, short_form = p->segment[id].form == FORM_SHORT;
+    bool excused = *p->override, short_form = p->segment[id].short_form;
     const char *name = limit_default[l].name,
                *source = c->limit_from_case[l] ? "set by the case" : limit_default[l].source;
     char where[64], range[LIMIT_WORDS_SIZE];
@@ -76,20 +71,17 @@ static int measure(const plan_file *p, segment_id id, const landmarks *l, const 
     const landmark *at = plan_moves_reference(l, id);
     double d[3];
     rigid own = motion[id], distal_back = rigid_inverse(&motion[SEGMENT_DISTAL]);
-    if (p->segment[id].form == FORM_NONE || !at) return 0;
+    if (!is_named(&p->segment[id]) || !at) return 0;
     if (id == SEGMENT_CHIN) own = rigid_compose(&distal_back, &own);
     rigid_apply(&own, at->xyz, d);
     vec_sub(d, at->xyz, d);
     double turn_deg = rigid_angle(&own) * 180 / M_PI;
+    *first = control_limit(id, RIG_FORWARD);
     if (id == SEGMENT_PROXIMAL_LEFT || id == SEGMENT_PROXIMAL_RIGHT) {
-        *first = LIMIT_CONDYLE_SHIFT;
         out[0] = vec_norm(d);
         out[1] = turn_deg;
         return 2;
     }
-    *first = id == SEGMENT_MAXILLA  ? LIMIT_MAXILLA_ADVANCE
-             : id == SEGMENT_DISTAL ? LIMIT_MANDIBLE_ADVANCE
-                                    : LIMIT_CHIN_ADVANCE;
     out[0] = -vec_dot(d, f->posterior);
     out[1] = vec_dot(d, f->up);
     out[2] = vec_dot(d, f->left);
@@ -101,10 +93,6 @@ bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, 
 {
     plan_moves m = {0};
     rig_controls q = rig_controls_default();
-    q.maxilla_advance_mm = p->maxilla_advance_mm;
-    q.maxilla_impaction_mm = p->maxilla_impaction_mm;
-    q.mandible_advance_mm = p->mandible_advance_mm;
-    q.chin_advance_mm = p->chin_advance_mm;
     head_frame f;
     err e = {0};
     int errors = issue_count(issues, ISSUE_ERROR);
@@ -114,6 +102,8 @@ bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, 
     }
     for (int i = 0; i < SEGMENT_COUNT; i++) (void)own_move(p, (segment_id)i, l, &q.move[i], issues);
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
+    for (int i = 0; i < CONTROL_COUNT; i++)
+        if (p->value[i] != 0) control_apply(&controls[i], p->value[i], &f, &q);
     if (!rig_motion(&q, &f, NULL, m.move, &e)) {
         issue_add(issues, ISSUE_ERROR, e.code, p->path, 0, NULL, "%s", e.text);
         return false;

@@ -1,5 +1,6 @@
 #include "geometry/rig.h"
 #include "geometry/vec.h"
+#include <assert.h>
 #include <stddef.h>
 
 static double radians(double degrees) { return degrees * (M_PI / 180); }
@@ -35,6 +36,50 @@ rigid rig_segment_motion(const segment_move *m, const head_frame *f)
     return turn;
 }
 
+double *rig_angle(segment_move *m, rig_axis axis)
+{
+    assert(axis >= RIG_PITCH);
+    return axis == RIG_PITCH ? &m->pitch_deg : axis == RIG_YAW ? &m->yaw_deg : &m->roll_deg;
+}
+
+double *rig_jaw_part(jaw_motion *j, rig_axis axis)
+{
+    assert(axis >= RIG_PITCH || axis == RIG_FORWARD);
+    return axis == RIG_PITCH  ? &j->open_deg
+           : axis == RIG_YAW  ? &j->yaw_deg
+           : axis == RIG_ROLL ? &j->roll_deg
+                              : &j->protrude_mm;
+}
+
+/* The axis along which a shift counts, and its sign. */
+static const double *axis_of(rig_axis axis, const head_frame *f, double *sign)
+{
+    *sign = axis == RIG_FORWARD ? -1 : 1;
+    return axis == RIG_FORWARD ? f->posterior : axis == RIG_UP ? f->up : f->left;
+}
+
+void rig_move(segment_move *m, rig_axis axis, double by, const head_frame *f)
+{
+    if (m->kind == MOVE_NONE) m->kind = MOVE_ANGLES;
+    if (axis >= RIG_PITCH) {
+        assert(m->kind == MOVE_ANGLES);
+        *rig_angle(m, axis) += by;
+        return;
+    }
+    double sign, *t = m->kind == MOVE_RIGID ? m->motion.t : m->translate_mm;
+    const double *along = axis_of(axis, f, &sign);
+    vec_axpy(t, sign * by, along, t);
+}
+
+double rig_moved(const segment_move *m, rig_axis axis, const head_frame *f)
+{
+    segment_move copy = *m;
+    if (axis >= RIG_PITCH) return *rig_angle(&copy, axis);
+    double sign;
+    const double *along = axis_of(axis, f, &sign);
+    return sign * vec_dot(m->translate_mm, along);
+}
+
 /* In the head's axes (left, posterior, up) the rotation is Z(yaw) Y(roll) X(pitch). */
 void rig_angles(const rigid *motion, const head_frame *f, double *pitch_deg, double *yaw_deg, double *roll_deg)
 {
@@ -65,17 +110,13 @@ rigid rig_jaw_motion(const jaw_motion *j, const head_frame *f, const double cond
 static bool check_number(double x, const char *segment, const char *name, err *e)
 {
     if (isfinite(x)) return true;
-    return err_set(e, ERR_INPUT, "%s%s%s is not a finite number", segment ? segment : "", segment ? "." : "", name);
+    return err_set(e, ERR_INPUT, "%s.%s is not a finite number", segment, name);
 }
 
 static bool check_controls(const rig_controls *c, err *e)
 {
     const jaw_motion *j = &c->jaw;
-    if (!check_number(c->maxilla_advance_mm, NULL, "maxilla_advance_mm", e) ||
-        !check_number(c->maxilla_impaction_mm, NULL, "maxilla_impaction_mm", e) ||
-        !check_number(c->mandible_advance_mm, NULL, "mandible_advance_mm", e) ||
-        !check_number(c->chin_advance_mm, NULL, "chin_advance_mm", e) ||
-        !check_number(j->open_deg, "jaw", "open_deg", e) || !check_number(j->yaw_deg, "jaw", "yaw_deg", e) ||
+    if (!check_number(j->open_deg, "jaw", "open_deg", e) || !check_number(j->yaw_deg, "jaw", "yaw_deg", e) ||
         !check_number(j->roll_deg, "jaw", "roll_deg", e) || !check_number(j->protrude_mm, "jaw", "protrude_mm", e) ||
         !check_number(j->path_slope_deg, "jaw", "path_slope_deg", e))
         return false;
@@ -99,18 +140,6 @@ static bool check_controls(const rig_controls *c, err *e)
     }
     if (c->move[SEGMENT_CRANIUM].kind != MOVE_NONE)
         return err_set(e, ERR_INPUT, "the cranium holds the head: it cannot be moved");
-    const struct {
-        segment_id segment;
-        double short_form_mm;
-        const char *name;
-    } twice[] = {{SEGMENT_MAXILLA, c->maxilla_advance_mm, "maxilla_advance_mm"},
-                 {SEGMENT_MAXILLA, c->maxilla_impaction_mm, "maxilla_impaction_mm"},
-                 {SEGMENT_DISTAL, c->mandible_advance_mm, "mandible_advance_mm"},
-                 {SEGMENT_CHIN, c->chin_advance_mm, "chin_advance_mm"}};
-    for (size_t i = 0; i < sizeof twice / sizeof *twice; i++)
-        if (twice[i].short_form_mm != 0 && c->move[twice[i].segment].kind != MOVE_NONE)
-            return err_set(e, ERR_INPUT, "%s and a full move of %s both move the same segment", twice[i].name,
-                           segment_name(twice[i].segment));
     return true;
 }
 
@@ -135,10 +164,6 @@ bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condy
     if (!check_controls(c, e) || (jaw_moves && !check_condyles(condyle, f, e))) return false;
     rigid out[SEGMENT_COUNT];
     for (int s = 0; s < SEGMENT_COUNT; s++) out[s] = rig_segment_motion(&c->move[s], f);
-    vec_axpy(out[SEGMENT_MAXILLA].t, -c->maxilla_advance_mm, f->posterior, out[SEGMENT_MAXILLA].t);
-    vec_axpy(out[SEGMENT_MAXILLA].t, c->maxilla_impaction_mm, f->up, out[SEGMENT_MAXILLA].t);
-    vec_axpy(out[SEGMENT_DISTAL].t, -c->mandible_advance_mm, f->posterior, out[SEGMENT_DISTAL].t);
-    vec_axpy(out[SEGMENT_CHIN].t, -c->chin_advance_mm, f->posterior, out[SEGMENT_CHIN].t);
     out[SEGMENT_CHIN] = rigid_compose(&out[SEGMENT_DISTAL], &out[SEGMENT_CHIN]);
     if (jaw_moves) {
         rigid jaw = rig_jaw_motion(j, f, condyle);
