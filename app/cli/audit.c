@@ -1,26 +1,15 @@
 /* gnathos audit CASE [--plan P] */
-#include "app/cli/audit_plan.h"
-#include "app/cli/audit_space.h"
+#include "app/cli/audit.h"
 #include <stdlib.h>
 
-enum {
-    KEY_CACHE = 300,
-    KEY_NO_PICTURES,
-    KEY_LINE,
-    KEY_PAIR,
-    KEY_BOX,
-    KEY_AROUND,
-    KEY_GEOMETRY,
-    KEY_SPACING,
-    KEY_TOLERANCE
-};
+enum { KEY_NO_PICTURES = KEY_OWN, KEY_LINE, KEY_PAIR, KEY_BOX, KEY_AROUND, KEY_GEOMETRY, KEY_SPACING, KEY_TOLERANCE };
 
 static const struct argp_option options[] = {
-    {"output", 'o', "DIR", 0, "Folder for the results", 0},
-    {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
-    {"cache", KEY_CACHE, "DIR", 0, "Keep what is prepared in DIR instead of CASE/prepared", 0},
+    OPTION_OUTPUT("Folder for the results"),
+    OPTION_FORCE,
+    OPTION_CACHE,
     {NULL, 0, NULL, 0, "To judge one plan:", 1},
-    {"plan", 'p', "FILE", 0, "The plan (gnathos help plan)", 1},
+    OPTION_PLAN("The plan (gnathos help plan)", 1),
     {NULL, 0, NULL, 0, "To find out what is possible:", 2},
     {"line", KEY_LINE, "A", 0, "Bounds of control A alone; may be given often", 2},
     {"pair", KEY_PAIR, "A,B", 0, "A map over two controls, and the bounds of each; may be given often", 2},
@@ -44,14 +33,6 @@ static const char about[] =
     "What is finished is kept in DIR.journal while the audit runs: after an interruption the same command goes on from "
     "there.";
 
-struct input {
-    command_options common;
-    const char *case_path[1], *out, *cache, *plan;
-    bool force;
-    const char *space_only; /* an option that has no meaning with --plan */
-    audit_space_options space;
-};
-
 static double read_number(const char *name, const char *arg, struct argp_state *state)
 {
     char *end;
@@ -61,102 +42,90 @@ static double read_number(const char *name, const char *arg, struct argp_state *
     return x;
 }
 
-static void ask_for(audit_space_options *s, const char *word, int axes, struct argp_state *state)
+static void ask_for(audit_options *s, const char *word, int axes, struct argp_state *state)
 {
     if (s->word_count == AUDIT_WORDS_MAX) argp_error(state, "more than %d lines, pairs and boxes", AUDIT_WORDS_MAX);
     s->axis_count[s->word_count] = axes;
     s->word[s->word_count++] = word;
 }
 
-/* Options of the audit without a plan. */
-static error_t parse_space(int key, char *arg, struct input *in, struct argp_state *state)
+/* What the options without a plan say; true where key is one of them. */
+static bool take_option(int key, char *arg, audit_options *o, struct argp_state *state)
 {
-    audit_space_options *s = &in->space;
     switch (key) {
-    case KEY_LINE:
-        in->space_only = "--line";
-        ask_for(s, arg, 1, state);
-        return 0;
-    case KEY_PAIR:
-        in->space_only = "--pair";
-        ask_for(s, arg, 2, state);
-        return 0;
-    case KEY_BOX:
-        in->space_only = "--box";
-        ask_for(s, arg, 3, state);
-        return 0;
-    case KEY_AROUND:
-        in->space_only = "--around";
-        s->around = arg;
-        return 0;
-    case KEY_SPACING:
-        in->space_only = "--spacing";
-        s->spacing = read_number("--spacing", arg, state);
-        return 0;
-    case KEY_TOLERANCE:
-        in->space_only = "--tolerance";
-        s->tolerance = read_number("--tolerance", arg, state);
-        return 0;
-    case KEY_GEOMETRY:
-        in->space_only = "--geometry-only";
-        s->geometry_only = true;
-        return 0;
-    case KEY_NO_PICTURES:
-        in->space_only = "--no-pictures";
-        s->no_pictures = true;
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
+    case KEY_LINE: ask_for(o, arg, 1, state); break;
+    case KEY_PAIR: ask_for(o, arg, 2, state); break;
+    case KEY_BOX: ask_for(o, arg, 3, state); break;
+    case KEY_AROUND: o->around = arg; break;
+    case KEY_SPACING: o->spacing = read_number("--spacing", arg, state); break;
+    case KEY_TOLERANCE: o->tolerance = read_number("--tolerance", arg, state); break;
+    case KEY_GEOMETRY: o->geometry_only = true; break;
+    case KEY_NO_PICTURES: o->no_pictures = true; break;
+    default: return false;
     }
+    return true;
 }
 
-static void check(const struct input *in, struct argp_state *state)
+static void check(run_context *r, struct argp_state *state)
 {
-    const audit_space_options *s = &in->space;
-    if (in->plan && in->space_only)
-        argp_error(state, "%s has no meaning with --plan, which judges one plan", in->space_only);
-    if (!in->plan && !in->out) argp_error(state, "name a folder for the results with -o, or a plan with --plan");
-    if (s->tolerance > s->spacing)
-        argp_error(state, "--tolerance %g is wider than --spacing %g", s->tolerance, s->spacing);
+    audit_options *o = r->own;
+    if (r->plan_path && o->named) argp_error(state, "%s has no meaning with --plan, which judges one plan", o->named);
+    if (!r->plan_path && !r->out_path)
+        argp_error(state, "name a folder for the results with -o, or a plan with --plan");
+    if (o->tolerance > o->spacing)
+        argp_error(state, "--tolerance %g is wider than --spacing %g", o->tolerance, o->spacing);
+    o->one_plan = r->plan_path != NULL;
+    if (!o->one_plan) r->plan_path = o->around;
+    if (!o->one_plan && !GNATHOS_WITH_SIM) r->need = 0;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    struct input *in = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'p': in->plan = arg; return 0;
-    case 'o': in->out = arg; return 0;
-    case 'f': in->force = true; return 0;
-    case KEY_CACHE: in->cache = arg; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
-    case ARGP_KEY_END: check(in, state); return 0;
-    default: return parse_space(key, arg, in, state);
-    }
+    static const char *const name[] = {[KEY_NO_PICTURES - KEY_OWN] = "--no-pictures",
+                                       [KEY_LINE - KEY_OWN] = "--line",
+                                       [KEY_PAIR - KEY_OWN] = "--pair",
+                                       [KEY_BOX - KEY_OWN] = "--box",
+                                       [KEY_AROUND - KEY_OWN] = "--around",
+                                       [KEY_GEOMETRY - KEY_OWN] = "--geometry-only",
+                                       [KEY_SPACING - KEY_OWN] = "--spacing",
+                                       [KEY_TOLERANCE - KEY_OWN] = "--tolerance"};
+    audit_options *o = r->own;
+    if (key == ARGP_KEY_END) check(r, state);
+    if (!take_option(key, arg, o, state)) return ARGP_ERR_UNKNOWN;
+    o->named = name[key - KEY_OWN];
+    return 0;
 }
 
-int command_audit(int argc, char **argv)
+static void defaults(void *own) { *(audit_options *)own = (audit_options){.spacing = 1, .tolerance = 0.05}; }
+
+static bool early(run_context *r, err *e)
 {
-    static const struct argp argp = {options, parse, "CASE", about, command_common, NULL, NULL};
-    struct input in = {.space = {.spacing = 1, .tolerance = 0.05}};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    if (in.plan)
-        return command_audit_plan(&(audit_plan_options){.common = in.common,
-                                                        .case_path = in.case_path[0],
-                                                        .plan = in.plan,
-                                                        .cache = in.cache,
-                                                        .out = in.out,
-                                                        .force = in.force});
-    in.space.common = in.common;
-    in.space.case_path = in.case_path[0];
-    in.space.out = in.out;
-    in.space.cache = in.cache;
-    in.space.force = in.force;
+    const audit_options *o = r->own;
+    if (o->one_plan) return true;
 #if GNATHOS_WITH_SIM
-    return command_audit_space(&in.space);
+    return audit_space_early(r, e);
 #else
-    err e = {0};
-    err_set(&e, ERR_USAGE, "audit without --plan cannot run: this build has no solver (GNATHOS_SIM=OFF)");
-    return command_fail(&e);
+    return err_set(e, ERR_USAGE, "audit without --plan cannot run: this build has no solver (GNATHOS_SIM=OFF)");
 #endif
 }
+
+static bool run(run_context *r, err *e)
+{
+#if GNATHOS_WITH_SIM
+    const audit_options *o = r->own;
+    if (!o->one_plan) return audit_space_run(r, e);
+#endif
+    return audit_plan_run(r, e);
+}
+
+const verb verb_audit = {.arguments = "CASE",
+                         .about = about,
+                         .options = options,
+                         .argument_count = 1,
+                         .missing_argument = "name a case",
+                         .need = NEED_CASE | NEED_POINTS | NEED_PLAN_JUDGED | NEED_OUTPUT | NEED_PREPARED,
+                         .own_size = sizeof(audit_options),
+                         .defaults = defaults,
+                         .parse = parse,
+                         .early = early,
+                         .run = run};

@@ -1,5 +1,5 @@
 /* gnathos audit CASE: how far may each bone be moved, and what stops it? */
-#include "app/cli/audit_space.h"
+#include "app/cli/audit.h"
 #include "app/cli/bounds_print.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/bounds.h"
@@ -98,19 +98,31 @@ static void show_solves(int round, int done, int count, void *context)
     command_progress_at(context, stage, -1);
 }
 
-static bool was_interrupted(void *context)
+static bool settings_of(const run_context *r, audit_settings *out, err *e)
 {
-    (void)context;
-    return command_interrupted();
+    const audit_options *o = r->own;
+    audit_settings s = {.spacing = o->spacing, .tolerance = o->tolerance, .tissue = !o->geometry_only};
+    for (int i = 0; i < o->word_count; i++)
+        if (!take_word(o->word[i], o->axis_count[i], &r->patient, &s, e)) return false;
+    if (!o->word_count && !take_default(&r->patient, &s, e)) return false;
+    *out = s;
+    return true;
 }
 
-static bool write_all(const audit_space_options *in, const audit *a, err *e)
+bool audit_space_early(run_context *r, err *e)
+{
+    audit_settings s;
+    return settings_of(r, &s, e);
+}
+
+static bool write_all(const run_context *r, const audit *a, err *e)
 {
     output_dir dir = {0};
-    if (!output_dir_open(in->out, in->force, &dir, e)) return false;
+    if (!output_dir_open(r->out_path, r->force, &dir, e)) return false;
     bool ok = audit_write_files(a, &dir, e);
 #if GNATHOS_WITH_RENDER
-    if (ok && !in->no_pictures) ok = audit_write_pictures(a, &dir, e);
+    const audit_options *o = r->own;
+    if (ok && !o->no_pictures) ok = audit_write_pictures(a, &dir, e);
 #endif
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
     ok = ok && output_dir_close(&dir, e);
@@ -118,33 +130,39 @@ static bool write_all(const audit_space_options *in, const audit *a, err *e)
     return ok;
 }
 
-static bool run(const audit_space_options *in, audit *a, err *e)
+/* "DIR.journal" in a new string. */
+static char *journal_path(const char *folder)
 {
-    char key[HASH_TEXT_SIZE];
-    journal j;
-    size_t size = strlen(in->out) + 16;
+    size_t size = strlen(folder) + 16;
     char *path = NEW_ARRAY(char, size);
-    snprintf(path, size, "%s", in->out);
+    snprintf(path, size, "%s", folder);
     for (size_t n = strlen(path); n > 1 && path[n - 1] == '/'; n--) path[n - 1] = 0;
     strcat(path, ".journal");
+    return path;
+}
+
+static bool judge_all(const run_context *r, audit *a, err *e)
+{
+    char key[HASH_TEXT_SIZE], *path = journal_path(r->out_path);
+    journal j;
     audit_key(a, key);
-    bool ok = journal_open(path, key, in->force, audit_read_record, a, &j, e);
+    bool ok = journal_open(path, key, r->force, audit_read_record, a, &j, e);
     if (ok) {
         if (j.record_count)
-            command_note(&in->common, "%s: goes on after %lld finished points and solves", path,
+            command_note(&r->common, "%s: goes on after %lld finished points and solves", path,
                          (long long)j.record_count);
         a->progress = show_points;
         a->solved = show_solves;
-        a->interrupted = was_interrupted;
-        a->context = (void *)&in->common;
+        a->interrupted = r->watch.interrupted;
+        a->context = r->watch.context;
         ok = audit_bones(a, &j, e) && (!a->settings.tissue || audit_tissue(a, &j, e));
         sample_set_sort(&a->points);
         tissue_set_sort(&a->tissue);
-        ok = ok && write_all(in, a, e);
+        ok = ok && write_all(r, a, e);
         if (ok)
             journal_remove(&j);
         else if (e->code == ERR_INTERRUPTED)
-            command_note(&in->common, "%s keeps %lld finished points and solves; the same command goes on from there",
+            command_note(&r->common, "%s keeps %lld finished points and solves; the same command goes on from there",
                          path, (long long)j.record_count);
         journal_close(&j);
     }
@@ -152,11 +170,11 @@ static bool run(const audit_space_options *in, audit *a, err *e)
     return ok;
 }
 
-static bool print(const audit_space_options *in, const audit *a, err *e)
+static bool print(const run_context *r, const audit *a, err *e)
 {
-    if (!in->common.json) {
+    if (!r->common.json) {
         if (!bounds_print(a, e)) return false;
-        printf("Results in %s\n", in->out);
+        printf("Results in %s\n", r->out_path);
         return true;
     }
     json_t *record;
@@ -165,34 +183,14 @@ static bool print(const audit_space_options *in, const audit *a, err *e)
     return true;
 }
 
-int command_audit_space(const audit_space_options *in)
+bool audit_space_run(run_context *r, err *e)
 {
-    err e = {0};
-    case_file c;
-    landmarks points = {0};
-    plan_file plan;
-    plan_moves moves;
-    prepared p = {0};
-    const task watch = command_task(&in->common);
+    audit_settings settings;
     audit a = {0};
-    output_dir dir = {0};
-    issue_list issues = {0};
-    audit_settings settings = {.spacing = in->spacing, .tolerance = in->tolerance, .tissue = !in->geometry_only};
-    /* what is wrong in the words is told before the minutes of preparation */
-    bool ok = case_file_load(in->case_path, &c, &e) && landmarks_read(c.landmarks, &points, NULL, &e);
-    for (int i = 0; ok && i < in->word_count; i++) ok = take_word(in->word[i], in->axis_count[i], &c, &settings, &e);
-    if (ok && !in->word_count) ok = take_default(&c, &settings, &e);
-    if (ok && in->around) {
-        ok = plan_file_read(in->around, &c, &plan, &issues) && plan_moves_set(&plan, &c, &points, &moves, &issues);
-        ok = issue_none_is_error(&issues, &e) && ok;
-    }
-    ok = ok && output_dir_open(in->out, in->force, &dir, &e);
-    output_dir_abandon(&dir);
-    ok = ok && prepared_get(&c, in->cache, &watch, &p, &e) &&
-         audit_make(&c, &p, in->around ? &plan : NULL, &settings, &a, &e) && run(in, &a, &e) && print(in, &a, &e);
+    output_dir_abandon(&r->dir); /* it can be written; until there is a result, the journal alone is kept */
+    bool ok = settings_of(r, &settings, e) &&
+              audit_make(&r->patient, &r->prepared, r->plan_path ? &r->plan : NULL, &settings, &a, e) &&
+              judge_all(r, &a, e) && print(r, &a, e);
     audit_free(&a);
-    prepared_free(&p);
-    landmarks_free(&points);
-    issue_list_free(&issues);
-    return ok ? 0 : command_fail(&e);
+    return ok;
 }

@@ -1,40 +1,11 @@
 /* gnathos check CASE [--plan P]: everything wrong at once. */
+#include "app/cli/verb.h"
 #include "app/planner/patient/check.h"
-#include "app/cli/command.h"
-#include "app/planner/plan/plan_moves.h"
 #include "geometry/mem.h"
 #include <stdio.h>
 #include <stdlib.h>
 
-typedef struct check_input {
-    command_options common;
-    const char *case_path, *plan_path;
-} check_input;
-
 static const struct argp_option options[] = {{"plan", 'p', "PLAN", 0, "Check this plan against the case too", 0}, {0}};
-
-static error_t parse(int key, char *arg, struct argp_state *state)
-{
-    check_input *in = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'p': in->plan_path = arg; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, &in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case: a folder or its case.json"); return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
-}
-
-static const struct argp argp = {options,
-                                 parse,
-                                 "CASE",
-                                 "Reads a case (a folder or its case.json) and, with --plan, a plan, and "
-                                 "names everything wrong in them: fields, files, "
-                                 "units, meshes, landmarks, limits. Changes nothing. Errors leave with the "
-                                 "exit status of the first of them.",
-                                 command_common,
-                                 NULL,
-                                 NULL};
 
 static void print_plain(const case_file *c, const check_found *found, const plan_file *plan, const issue_list *issues)
 {
@@ -84,34 +55,42 @@ static void print_json(const case_file *c, const check_found *found, const plan_
     command_print_json(result, "check");
 }
 
-int command_check(int argc, char **argv)
+static bool run(run_context *r, err *e)
 {
-    check_input in = {0};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    case_file *c = NEW_ARRAY(case_file, 1);
-    plan_file *plan = NEW_ARRAY(plan_file, 1);
-    plan_moves moves;
+    (void)e;
+    case_file *c = &r->patient;
+    const plan_file *plan = r->plan_path ? &r->plan : NULL;
     check_found found = {0};
     issue_list issues = {0};
-    err e = {0};
-    bool readable = case_file_read(in.case_path, c, &issues);
-    command_progress_at(&in.common, "surfaces", -1);
+    err first = {0};
+    bool readable = case_file_read(r->argument[0], c, &issues);
+    command_progress_at(&r->common, "surfaces", -1);
     check_surfaces(c, &found, &issues);
     check_bones_inside(c, &found, &issues);
-    command_progress_at(&in.common, "landmarks", -1);
+    command_progress_at(&r->common, "landmarks", -1);
     check_landmarks(c, &found, &issues);
     check_planes(c, &issues);
-    bool planned = in.plan_path && plan_file_read(in.plan_path, c, plan, &issues);
-    if (planned && readable && found.has_frame) planned = plan_moves_make(plan, c, &found.points, &moves, &issues);
-    bool ok = issue_none_is_error(&issues, &e);
-    command_print_issues(&in.common, &issues);
-    if (in.common.json)
-        print_json(c, &found, in.plan_path ? plan : NULL, &issues);
-    else if (ok && !in.common.quiet)
-        print_plain(c, &found, in.plan_path ? plan : NULL, &issues);
+    bool planned = plan && plan_file_read(r->plan_path, c, &r->plan, &issues);
+    if (planned && readable && found.has_frame)
+        planned = plan_moves_make(&r->plan, c, &found.points, &r->moves, &issues);
+    bool ok = issue_none_is_error(&issues, &first);
+    command_print_issues(&r->common, &issues);
+    if (r->common.json)
+        print_json(c, &found, plan, &issues);
+    else if (ok && !r->common.quiet)
+        print_plain(c, &found, plan, &issues);
     issue_list_free(&issues);
     check_found_free(&found);
-    free(plan);
-    free(c);
-    return (int)e.code;
+    r->status = (int)first.code; /* all issues are told already */
+    return true;
 }
+
+const verb verb_check = {.arguments = "CASE",
+                         .about =
+                             "Reads a case (a folder or its case.json) and, with --plan, a plan, and names everything "
+                             "wrong in them: fields, files, units, meshes, landmarks, limits. Changes nothing. Errors "
+                             "leave with the exit status of the first of them.",
+                         .options = options,
+                         .argument_count = 1,
+                         .missing_argument = "name a case: a folder or its case.json",
+                         .run = run};

@@ -47,17 +47,6 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 static const struct argp common = {options, parse, NULL, NULL, NULL, NULL, NULL};
 const struct argp_child command_common[] = {{&common, 0, "", -2}, {0}};
 
-error_t command_take(char *arg, const char **slot, int slots, struct argp_state *state)
-{
-    for (int i = 0; i < slots; i++) {
-        if (slot[i]) continue;
-        slot[i] = arg;
-        return 0;
-    }
-    argp_error(state, "one argument too many: %s", arg);
-    return 0;
-}
-
 int command_fail(const err *e)
 {
     fprintf(stderr, "gnathos: %s\n", e->text);

@@ -1,7 +1,6 @@
 /* gnathos compare PREDICTED ACTUAL: how far a predicted face lies from the actual one. */
-#include "app/cli/command.h"
 #include "app/cli/compare_print.h"
-#include "app/planner/store/output_dir.h"
+#include "app/cli/verb.h"
 #include "geometry/mesh_file.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/signed.h"
@@ -9,46 +8,41 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-struct input {
-    command_options common;
-    const char *face[2], *landmarks, *actual_landmarks, *out;
-    bool force, no_align, no_pictures;
+typedef struct compare_options {
+    const char *landmarks, *actual_landmarks;
+    bool no_align, no_pictures;
     double range_mm;
-};
+} compare_options;
 
-enum { KEY_ACTUAL = 300, KEY_NO_ALIGN, KEY_NO_PICTURES, KEY_RANGE };
+enum { KEY_ACTUAL = KEY_OWN, KEY_NO_ALIGN, KEY_NO_PICTURES, KEY_RANGE };
 
 static const struct argp_option options[] = {
     {"landmarks", 'l', "FILE", 0, "Landmarks of the predicted face, where it is a mesh", 0},
     {"actual-landmarks", KEY_ACTUAL, "FILE", 0, "Landmarks of the actual face, to compare them too", 0},
     {"no-align", KEY_NO_ALIGN, NULL, 0, "Take both faces as they lie (default: aligned on forehead and nasal bridge)",
      0},
-    {"output", 'o', "DIR", 0, "Folder for the tables, the surface with the distances and the picture", 0},
-    {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
+    OPTION_OUTPUT("Folder for the tables, the surface with the distances and the picture"),
+    OPTION_FORCE,
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the picture out", 0},
     {"range", KEY_RANGE, "MM", 0, "End of the colour range, to both sides (5: pictures of different faces compare)", 0},
     {0}};
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    struct input *in = state->input;
+    compare_options *o = r->own;
     char *end;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'l': in->landmarks = arg; return 0;
-    case 'o': in->out = arg; return 0;
-    case 'f': in->force = true; return 0;
-    case KEY_ACTUAL: in->actual_landmarks = arg; return 0;
-    case KEY_NO_ALIGN: in->no_align = true; return 0;
-    case KEY_NO_PICTURES: in->no_pictures = true; return 0;
+    case 'l': o->landmarks = arg; return 0;
+    case KEY_ACTUAL: o->actual_landmarks = arg; return 0;
+    case KEY_NO_ALIGN: o->no_align = true; return 0;
+    case KEY_NO_PICTURES: o->no_pictures = true; return 0;
     case KEY_RANGE:
-        in->range_mm = strtod(arg, &end);
-        if (end == arg || *end || !(in->range_mm > 0) || in->range_mm > 1000)
+        o->range_mm = strtod(arg, &end);
+        if (end == arg || *end || !(o->range_mm > 0) || o->range_mm > 1000)
             argp_error(state, "--range must lie above 0 and up to 1000 mm, got %s", arg);
         return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->face, 2, state);
     case ARGP_KEY_END:
-        if (!in->face[1]) argp_error(state, "name a predicted and an actual face");
+        if (!r->argument[1]) argp_error(state, "name a predicted and an actual face");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -80,65 +74,67 @@ static bool write_json(json_t *record, const char *path, err *e)
     return ok;
 }
 
-static bool write_pictures(const struct input *in, const output_dir *dir, const face_compare *c, err *e)
+static bool write_pictures(const run_context *r, const face_compare *c, err *e)
 {
+    const compare_options *o = r->own;
 #if GNATHOS_WITH_RENDER
-    if (in->no_pictures) return true;
-    char *path = output_dir_file(dir, "signed.png"), title[600];
-    snprintf(title, sizeof title, "%s against %s", in->face[1], in->face[0]);
-    command_progress_at(&in->common, "drawing the picture", -1);
-    bool ok = signed_picture_write(c, title, in->range_mm, path, e);
+    if (o->no_pictures) return true;
+    char *path = output_dir_file(&r->dir, "signed.png"), title[600];
+    snprintf(title, sizeof title, "%s against %s", r->argument[1], r->argument[0]);
+    command_progress_at(&r->common, "drawing the picture", -1);
+    bool ok = signed_picture_write(c, title, o->range_mm, path, e);
     free(path);
     return ok;
 #else
-    (void)dir, (void)c, (void)e;
-    if (!in->no_pictures) command_note(&in->common, "no pictures: this build has no renderer (GNATHOS_RENDER=OFF)");
+    (void)c, (void)e;
+    if (!o->no_pictures) command_note(&r->common, "no pictures: this build has no renderer (GNATHOS_RENDER=OFF)");
     return true;
 #endif
 }
 
-static bool write_folder(const struct input *in, const face_compare_input *what, const face_compare *c, err *e)
+static bool write_folder(run_context *r, const face_compare_input *what, const face_compare *c, err *e)
 {
-    output_dir dir;
-    if (!output_dir_open(in->out, in->force, &dir, e)) return false;
-    char *record = output_dir_file(&dir, "comparison.json"), *table = output_dir_file(&dir, "regions.csv"),
-         *mesh = output_dir_file(&dir, "comparison.vtp"), *manifest = output_dir_file(&dir, "manifest.json");
+    const output_dir *dir = &r->dir;
+    char *record = output_dir_file(dir, "comparison.json"), *table = output_dir_file(dir, "regions.csv"),
+         *mesh = output_dir_file(dir, "comparison.vtp"), *manifest = output_dir_file(dir, "manifest.json");
     point_array distance = {"Signed", 1, c->signed_mm[PREDICTED]};
     bool ok = write_json(face_compare_json(what, c), record, e) && write_table(c, table, e) &&
-              mesh_write_surface_arrays(&c->skin[PREDICTED], &distance, 1, mesh, e) && write_pictures(in, &dir, c, e) &&
+              mesh_write_surface_arrays(&c->skin[PREDICTED], &distance, 1, mesh, e) && write_pictures(r, c, e) &&
               write_json(json_pack("{ss ss}", "schema", "gnathos.compare.1", "version", GNATHOS_VERSION), manifest, e);
     free(record);
     free(table);
     free(mesh);
     free(manifest);
-    if (ok) return output_dir_close(&dir, e);
-    output_dir_abandon(&dir);
-    return false;
+    return ok && output_dir_close(&r->dir, e);
 }
 
-int command_compare(int argc, char **argv)
+static void defaults(void *own) { *(compare_options *)own = (compare_options){.range_mm = 5}; }
+
+static bool run(run_context *r, err *e)
 {
-    static const struct argp argp = {
-        options,
-        parse,
-        "PREDICTED ACTUAL",
-        "Compares a predicted face (an outcome of gnathos predict, or a mesh) with an actual one (a mesh, or another "
-        "outcome): the signed distance of the surfaces by region. An outcome is also held against two trivial "
-        "predictions: no change, and skin that follows the bone below it.",
-        command_common,
-        NULL,
-        NULL};
-    struct input in = {.range_mm = 5};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    err e = {0};
+    const compare_options *o = r->own;
     face_compare c = {0};
-    face_compare_input what = {in.face[0], in.face[1], in.landmarks, in.actual_landmarks, !in.no_align};
-    command_progress_at(&in.common, "comparing", -1);
-    bool ok = face_compare_make(&what, &c, &e) && (!in.out || write_folder(&in, &what, &c, &e));
-    if (ok && in.common.json)
+    face_compare_input what = {r->argument[0], r->argument[1], o->landmarks, o->actual_landmarks, !o->no_align};
+    command_progress_at(&r->common, "comparing", -1);
+    bool ok = face_compare_make(&what, &c, e) && (!r->out_path || write_folder(r, &what, &c, e));
+    if (ok && r->common.json)
         command_print_json(face_compare_json(&what, &c), "compare");
     else if (ok)
         compare_print(&c);
     face_compare_free(&c);
-    return ok ? 0 : command_fail(&e);
+    return ok;
 }
+
+const verb verb_compare = {
+    .arguments = "PREDICTED ACTUAL",
+    .about =
+        "Compares a predicted face (an outcome of gnathos predict, or a mesh) with an actual one (a mesh, or another "
+        "outcome): the signed distance of the surfaces by region. An outcome is also held against two trivial "
+        "predictions: no change, and skin that follows the bone below it.",
+    .options = options,
+    .argument_count = 2,
+    .need = NEED_OUTPUT,
+    .own_size = sizeof(compare_options),
+    .defaults = defaults,
+    .parse = parse,
+    .run = run};

@@ -1,7 +1,5 @@
 /* gnathos cut CASE -o DIR: the bones of a case cut along its osteotomies, as files. */
-#include "app/planner/patient/anatomy.h"
-#include "app/cli/command.h"
-#include "app/planner/store/output_dir.h"
+#include "app/cli/verb.h"
 #include "app/planner/patient/prepared_report.h"
 #include "geometry/mesh_file.h"
 #include "geometry/plane_file.h"
@@ -11,32 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-struct input {
-    command_options common;
-    const char *case_path[1], *target;
-    bool force;
-};
-
 static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "The folder of results, which must not exist yet", 0},
     {"force", 'f', NULL, 0, "Replace earlier results in DIR", 0},
     {0}};
-
-static error_t parse(int key, char *arg, struct argp_state *state)
-{
-    struct input *in = state->input;
-    switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'o': in->target = arg; return 0;
-    case 'f': in->force = true; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
-    case ARGP_KEY_END:
-        if (!in->target) argp_error(state, "name the folder of results with -o");
-        return 0;
-    default: return ARGP_ERR_UNKNOWN;
-    }
-}
 
 static bool write_bone(const surface *s, const char *name, const output_dir *d, err *e)
 {
@@ -145,41 +121,31 @@ static bool write_all(const case_file *c, const anatomy *a, const json_t *report
     return ok && write_picture(a, c->name, d, e);
 }
 
-int command_cut(int argc, char **argv)
+static bool run(run_context *r, err *e)
 {
-    static const struct argp argp = {
-        options,
-        parse,
-        "CASE -o DIR",
-        "Cuts the bones of a case along its osteotomies and writes every segment, the bone "
-        "that the saw removes, the planes, a report and a picture.",
-        command_common,
-        NULL,
-        NULL};
-    struct input in = {0};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    const task watch = command_task(&in.common);
-    err e = {0};
-    case_file c;
     anatomy a = {0};
-    output_dir d = {0};
-    if (!case_file_load(in.case_path[0], &c, &e) || !output_dir_open(in.target, in.force, &d, &e))
-        return command_fail(&e);
-    bool ok = anatomy_make(&c, false, &watch, &a, &e);
-    json_t *report = ok ? make_report(&c, &a) : NULL;
-    if (ok && command_interrupted()) ok = err_set(&e, ERR_INTERRUPTED, "interrupted");
-    ok = ok && write_all(&c, &a, report, &d, &e);
-    if (ok)
-        ok = output_dir_close(&d, &e);
-    else
-        output_dir_abandon(&d);
+    bool ok = anatomy_make(&r->patient, false, &r->watch, &a, e);
+    json_t *report = ok ? make_report(&r->patient, &a) : NULL;
+    if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
+    ok = ok && write_all(&r->patient, &a, report, &r->dir, e) && output_dir_close(&r->dir, e);
     if (ok && !GNATHOS_WITH_RENDER)
-        command_note(&in.common, "no picture: this build has no renderer (GNATHOS_RENDER=OFF)");
-    if (ok && in.common.json)
+        command_note(&r->common, "no picture: this build has no renderer (GNATHOS_RENDER=OFF)");
+    if (ok && r->common.json)
         command_print_json(json_incref(report), "cut");
     else if (ok)
-        print_plain(&a, in.target);
+        print_plain(&a, r->out_path);
     json_decref(report);
     anatomy_free(&a);
-    return ok ? 0 : command_fail(&e);
+    return ok;
 }
+
+const verb verb_cut = {.arguments = "CASE -o DIR",
+                       .about =
+                           "Cuts the bones of a case along its osteotomies and writes every segment, the bone that "
+                           "the saw removes, the planes, a report and a picture.",
+                       .options = options,
+                       .argument_count = 1,
+                       .missing_argument = "name a case",
+                       .missing_output = "name the folder of results with -o",
+                       .need = NEED_CASE | NEED_OUTPUT,
+                       .run = run};

@@ -1,5 +1,5 @@
 /* gnathos export OUT --format F -o DIR: the shapes of an outcome, before and as planned, for other programs. */
-#include "app/cli/command.h"
+#include "app/cli/verb.h"
 #include "app/planner/predict/outcome_read.h"
 #include "geometry/glb_file.h"
 #include "geometry/mem.h"
@@ -9,10 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct input {
-    command_options common;
-    const char *folder[1], *format, *target;
-};
+typedef struct export_options {
+    const char *format;
+} export_options;
 
 static const char *const formats[] = {"glb", "obj", "ply", "stl", "vtp"};
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
@@ -25,22 +24,18 @@ static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "Folder for the files, which must not exist yet", 0},
     {0}};
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    struct input *in = state->input;
+    export_options *o = r->own;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
     case 'f':
         for (int i = 0; i < FORMAT_COUNT; i++)
-            if (!strcmp(arg, formats[i])) in->format = formats[i];
-        if (!in->format) argp_error(state, "--format %s: must be glb, obj, ply, stl or vtp", arg);
+            if (!strcmp(arg, formats[i])) o->format = formats[i];
+        if (!o->format) argp_error(state, "--format %s: must be glb, obj, ply, stl or vtp", arg);
         return 0;
-    case 'o': in->target = arg; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->folder, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name the folder of an outcome"); return 0;
     case ARGP_KEY_END:
-        if (!in->format) argp_error(state, "name a format with --format");
-        if (!in->target) argp_error(state, "name the folder of results with -o");
+        if (!o->format) argp_error(state, "name a format with --format");
+        if (!r->out_path) argp_error(state, "name the folder of results with -o");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -131,28 +126,27 @@ static bool write_all(const outcome_shapes *o, const char *format, const char *f
     return ok;
 }
 
-int command_export(int argc, char **argv)
+static bool run(run_context *r, err *e)
 {
-    static const struct argp argp = {
-        options,
-        parse,
-        "OUT",
-        "Write the skin and the segments of an outcome, before and as planned, for other "
-        "programs. Axes are LPS, lengths mm, and the files say so (SPACE=LPS); in .glb the "
-        "root node takes them to the metres and axes of glTF.",
-        command_common,
-        NULL,
-        NULL};
-    struct input in = {0};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    err e = {0};
-    outcome_shapes o = {0};
+    const export_options *o = r->own;
+    outcome_shapes shapes = {0};
     whole_folder folder = {0};
-    bool ok = outcome_shapes_read(in.folder[0], &o, &e) && whole_folder_open(in.target, &folder, &e) &&
-              write_all(&o, in.format, folder.temporary, &e) && whole_folder_close(&folder, &e);
+    bool ok = outcome_shapes_read(r->argument[0], &shapes, e) && whole_folder_open(r->out_path, &folder, e) &&
+              write_all(&shapes, o->format, folder.temporary, e) && whole_folder_close(&folder, e);
     whole_folder_abandon(&folder);
-    outcome_shapes_free(&o);
-    if (!ok) return command_fail(&e);
-    if (!in.common.quiet) printf("Results in %s\n", in.target);
-    return 0;
+    outcome_shapes_free(&shapes);
+    if (ok && !r->common.quiet) printf("Results in %s\n", r->out_path);
+    return ok;
 }
+
+const verb verb_export = {.arguments = "OUT",
+                          .about =
+                              "Write the skin and the segments of an outcome, before and as planned, for other "
+                              "programs. Axes are LPS, lengths mm, and the files say so (SPACE=LPS); in .glb the root "
+                              "node takes them to the metres and axes of glTF.",
+                          .options = options,
+                          .argument_count = 1,
+                          .missing_argument = "name the folder of an outcome",
+                          .own_size = sizeof(export_options),
+                          .parse = parse,
+                          .run = run};

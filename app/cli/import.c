@@ -1,5 +1,5 @@
 /* gnathos import: a case folder from surfaces, or from a label map and a CT. */
-#include "app/cli/command.h"
+#include "app/cli/verb.h"
 #include "app/planner/patient/import.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    KEY_SKIN = 512,
+    KEY_SKIN = KEY_OWN,
     KEY_UPPER,
     KEY_LOWER,
     KEY_LANDMARKS,
@@ -24,12 +24,6 @@ enum {
     KEY_SKULL,
     KEY_MANDIBLE
 };
-
-typedef struct import_input {
-    command_options common;
-    import_params p;
-    const char *folder;
-} import_input;
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb), or labels of --labels",
@@ -69,58 +63,44 @@ static double number(const char *arg, double low, double high, const char *what,
     return value;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    import_input *in = state->input;
+    import_params *p = r->own;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case KEY_SKIN: in->p.from[CASE_SKIN] = arg; return 0;
-    case KEY_SKULL: in->p.from[CASE_SKULL] = arg; return 0;
-    case KEY_MANDIBLE: in->p.from[CASE_MANDIBLE] = arg; return 0;
-    case KEY_UPPER: in->p.from[CASE_UPPER_TEETH] = arg; return 0;
-    case KEY_LOWER: in->p.from[CASE_LOWER_TEETH] = arg; return 0;
-    case KEY_LANDMARKS: in->p.landmarks = arg; return 0;
-    case KEY_NAME: in->p.name = arg; return 0;
-    case KEY_LABELS: in->p.labels = arg; return 0;
-    case KEY_PRESET: in->p.preset = arg; return 0;
-    case KEY_CT: in->p.ct = arg; return 0;
-    case KEY_HU: in->p.skin_hu = number(arg, -1000, 3000, "skin-hu", state); return 0;
-    case KEY_SEAL: in->p.seal_mm = number(arg, 0, 40, "seal", state); return 0;
-    case KEY_EDGE: in->p.mesh.edge_mm = number(arg, 0.3, 10, "edge", state); return 0;
-    case 'o': in->folder = arg; return 0;
+    case KEY_SKIN: p->from[CASE_SKIN] = arg; return 0;
+    case KEY_SKULL: p->from[CASE_SKULL] = arg; return 0;
+    case KEY_MANDIBLE: p->from[CASE_MANDIBLE] = arg; return 0;
+    case KEY_UPPER: p->from[CASE_UPPER_TEETH] = arg; return 0;
+    case KEY_LOWER: p->from[CASE_LOWER_TEETH] = arg; return 0;
+    case KEY_LANDMARKS: p->landmarks = arg; return 0;
+    case KEY_NAME: p->name = arg; return 0;
+    case KEY_LABELS: p->labels = arg; return 0;
+    case KEY_PRESET: p->preset = arg; return 0;
+    case KEY_CT: p->ct = arg; return 0;
+    case KEY_HU: p->skin_hu = number(arg, -1000, 3000, "skin-hu", state); return 0;
+    case KEY_SEAL: p->seal_mm = number(arg, 0, 40, "seal", state); return 0;
+    case KEY_EDGE: p->mesh.edge_mm = number(arg, 0.3, 10, "edge", state); return 0;
     case KEY_FRAME:
         if (!strcmp(arg, "lps"))
-            in->p.space = MESH_SPACE_LPS;
+            p->space = MESH_SPACE_LPS;
         else if (!strcmp(arg, "ras"))
-            in->p.space = MESH_SPACE_RAS;
+            p->space = MESH_SPACE_RAS;
         else
             argp_error(state, "--frame=%s: must be lps or ras", arg);
         return 0;
     case KEY_UNIT:
-        in->p.unit_mm = !strcmp(arg, "mm") ? 1 : !strcmp(arg, "cm") ? 10 : !strcmp(arg, "m") ? 1000 : 0;
-        if (!(in->p.unit_mm > 0)) argp_error(state, "--unit=%s: must be mm, cm or m", arg);
+        p->unit_mm = !strcmp(arg, "mm") ? 1 : !strcmp(arg, "cm") ? 10 : !strcmp(arg, "m") ? 1000 : 0;
+        if (!(p->unit_mm > 0)) argp_error(state, "--unit=%s: must be mm, cm or m", arg);
         return 0;
     case ARGP_KEY_ARG:
         argp_error(state, "\"%s\": every input is named by an option, as in --skin=%s", arg, arg);
         return 0;
     case ARGP_KEY_END:
-        if (!in->folder) argp_error(state, "name the new case folder with -o");
-        if (in->p.preset && !in->p.labels) argp_error(state, "--preset needs --labels");
+        if (p->preset && !p->labels) argp_error(state, "--preset needs --labels");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
-
-static const struct argp argp = {options,
-                                 parse,
-                                 "-o CASE",
-                                 "Makes a case folder from surfaces, or from a label map and a CT. Surfaces "
-                                 "are stored as they are (equal vertices "
-                                 "welded, degenerate triangles dropped) and reported on; `gnathos prepare` "
-                                 "repairs them. Units are never guessed.",
-                                 command_common,
-                                 NULL,
-                                 NULL};
 
 static void print_plain(const import_result *r, const char *folder)
 {
@@ -186,25 +166,36 @@ static void print_json(const import_result *r, const char *folder, const issue_l
     command_print_json(result, "import");
 }
 
-int command_import(int argc, char **argv)
+static void defaults(void *own) { *(import_params *)own = import_params_default(); }
+
+static bool run(run_context *r, err *e)
 {
-    import_input in = {.p = import_params_default()};
-    import_result r = {0};
+    const import_params *p = r->own;
+    import_result result = {0};
     issue_list notes = {0};
     whole_folder target;
-    err e = {0};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    const task watch = command_task(&in.common);
     /* A target in use is refused now, not after minutes. */
-    bool good = whole_folder_open(in.folder, &target, &e);
+    bool good = whole_folder_open(r->out_path, &target, e);
     if (good) whole_folder_abandon(&target);
-    good = good && import_read(&in.p, &watch, &r, &notes, &e) && import_write(&in.p, &r, in.folder, &e);
-    command_print_issues(&in.common, &notes);
-    if (good && in.common.json)
-        print_json(&r, in.folder, &notes);
-    else if (good && !in.common.quiet)
-        print_plain(&r, in.folder);
+    good = good && import_read(p, &r->watch, &result, &notes, e) && import_write(p, &result, r->out_path, e);
+    command_print_issues(&r->common, &notes);
+    if (good && r->common.json)
+        print_json(&result, r->out_path, &notes);
+    else if (good && !r->common.quiet)
+        print_plain(&result, r->out_path);
     issue_list_free(&notes);
-    import_result_free(&r);
-    return good ? 0 : command_fail(&e);
+    import_result_free(&result);
+    return good;
 }
+
+const verb verb_import = {.arguments = "-o CASE",
+                          .about =
+                              "Makes a case folder from surfaces, or from a label map and a CT. Surfaces are stored as "
+                              "they are (equal vertices welded, degenerate triangles dropped) and reported on; "
+                              "`gnathos prepare` repairs them. Units are never guessed.",
+                          .options = options,
+                          .missing_output = "name the new case folder with -o",
+                          .own_size = sizeof(import_params),
+                          .defaults = defaults,
+                          .parse = parse,
+                          .run = run};

@@ -1,59 +1,59 @@
 /* gnathos VERB ...: finds the verb and runs it. */
-#include "app/cli/command.h"
+#include "app/cli/verb.h"
 #include "app/planner/store/suggest.h"
 #include <stdio.h>
 #include <string.h>
 
 #define NOT_BUILT NULL, "is not built yet"
 #if GNATHOS_WITH_CGAL
-#define WITH_CGAL(run) run, NULL
+#define WITH_CGAL(verb) &verb, NULL
 #else
-#define WITH_CGAL(run) NULL, "cannot run: this build has no cuts and meshing (GNATHOS_CGAL=OFF)"
+#define WITH_CGAL(verb) NULL, "cannot run: this build has no cuts and meshing (GNATHOS_CGAL=OFF)"
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
-#define WITH_SIM(run) run, NULL
+#define WITH_SIM(verb) &verb, NULL
 #elif GNATHOS_WITH_SIM
-#define WITH_SIM(run) WITH_CGAL(run)
+#define WITH_SIM(verb) WITH_CGAL(verb)
 #else
-#define WITH_SIM(run) NULL, "cannot run: this build has no solver (GNATHOS_SIM=OFF)"
+#define WITH_SIM(verb) NULL, "cannot run: this build has no solver (GNATHOS_SIM=OFF)"
 #endif
 #if GNATHOS_WITH_SIM
-#define WITH_SOLVER(run) run, NULL
+#define WITH_SOLVER(verb) &verb, NULL
 #else
-#define WITH_SOLVER(run) WITH_SIM(run)
+#define WITH_SOLVER(verb) WITH_SIM(verb)
 #endif
 #if GNATHOS_WITH_RENDER
-#define WITH_RENDER(run) run, NULL
+#define WITH_RENDER(verb) &verb, NULL
 #else
-#define WITH_RENDER(run) NULL, "cannot run: this build has no renderer (GNATHOS_RENDER=OFF)"
+#define WITH_RENDER(verb) NULL, "cannot run: this build has no renderer (GNATHOS_RENDER=OFF)"
 #endif
 
 #if GNATHOS_WITH_REPORT && GNATHOS_WITH_RENDER && GNATHOS_WITH_CGAL
-#define WITH_REPORT(run) run, NULL
+#define WITH_REPORT(verb) &verb, NULL
 #elif GNATHOS_WITH_REPORT && GNATHOS_WITH_RENDER
-#define WITH_REPORT(run) WITH_CGAL(run)
+#define WITH_REPORT(verb) WITH_CGAL(verb)
 #elif GNATHOS_WITH_REPORT
-#define WITH_REPORT(run) WITH_RENDER(run)
+#define WITH_REPORT(verb) WITH_RENDER(verb)
 #else
-#define WITH_REPORT(run) NULL, "cannot run: this build has no report (GNATHOS_REPORT=OFF)"
+#define WITH_REPORT(verb) NULL, "cannot run: this build has no report (GNATHOS_REPORT=OFF)"
 #endif
 
-const verb verbs[] = {
-    {"help", "what a verb, a case, a plan or the landmarks are made of", command_help, NULL},
-    {"new", "make a case of a synthetic head", WITH_CGAL(command_new)},
-    {"import", "make a case from meshes or a label map", WITH_CGAL(command_import)},
-    {"check", "read a case and a plan and name everything wrong in them", WITH_CGAL(command_check)},
-    {"cut", "cut the bones along the osteotomies", WITH_CGAL(command_cut)},
-    {"prepare", "cut the bones and mesh the soft tissue of a case", WITH_CGAL(command_prepare)},
-    {"predict", "predict the face after a plan", WITH_SIM(command_predict)},
-    {"render", "draw the pictures of an outcome again", WITH_RENDER(command_render)},
-    {"report", "one page about an outcome, to open in a browser", WITH_REPORT(command_report)},
-    {"export", "write the shapes of an outcome for other programs", WITH_CGAL(command_export)},
-    {"compare", "compare a prediction with an actual face", WITH_CGAL(command_compare)},
-    {"ceph", "measure the profile of a case or an outcome", command_ceph, NULL},
-    {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(command_audit)},
-    {"study", "error against run time of a case", WITH_SIM(command_study)},
-    {"stress", "stiff materials and extreme moves", WITH_SOLVER(command_stress)},
+const verb_row verbs[] = {
+    {"help", "what a verb, a case, a plan or the landmarks are made of", &verb_help, NULL},
+    {"new", "make a case of a synthetic head", WITH_CGAL(verb_new)},
+    {"import", "make a case from meshes or a label map", WITH_CGAL(verb_import)},
+    {"check", "read a case and a plan and name everything wrong in them", WITH_CGAL(verb_check)},
+    {"cut", "cut the bones along the osteotomies", WITH_CGAL(verb_cut)},
+    {"prepare", "cut the bones and mesh the soft tissue of a case", WITH_CGAL(verb_prepare)},
+    {"predict", "predict the face after a plan", WITH_SIM(verb_predict)},
+    {"render", "draw the pictures of an outcome again", WITH_RENDER(verb_render)},
+    {"report", "one page about an outcome, to open in a browser", WITH_REPORT(verb_report)},
+    {"export", "write the shapes of an outcome for other programs", WITH_CGAL(verb_export)},
+    {"compare", "compare a prediction with an actual face", WITH_CGAL(verb_compare)},
+    {"ceph", "measure the profile of a case or an outcome", &verb_ceph, NULL},
+    {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(verb_audit)},
+    {"study", "error against run time of a case", WITH_SIM(verb_study)},
+    {"stress", "stiff materials and extreme moves", WITH_SOLVER(verb_stress)},
     {"serve", "plan in a browser", NOT_BUILT},
     {"cohort", "run many cases", NOT_BUILT},
     {"shape", "statistical shapes of heads", NOT_BUILT},
@@ -91,14 +91,14 @@ static int dispatch(int argc, char **argv)
     }
     for (int i = 0; i < verb_count; i++) {
         if (strcmp(verbs[i].name, word)) continue;
-        if (!verbs[i].run) {
+        if (!verbs[i].verb) {
             fprintf(stderr, "gnathos: %s %s\n", word, verbs[i].refusal);
             return ERR_USAGE;
         }
         char name[64];
         snprintf(name, sizeof name, "gnathos %s", word);
         argv[1] = name;
-        return verbs[i].run(argc - 1, argv + 1);
+        return verb_run(verbs[i].verb, argc - 1, argv + 1);
     }
     return unknown_verb(word);
 }

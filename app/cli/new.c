@@ -1,5 +1,5 @@
 /* gnathos new CASE: a case of a synthetic head, from published norms. */
-#include "app/cli/command.h"
+#include "app/cli/verb.h"
 #include "app/planner/store/suggest.h"
 #include "cases/norm_head/norm_case.h"
 #include "geometry/mem.h"
@@ -9,15 +9,23 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { KEY_NORM = 512, KEY_SEX, KEY_SEED, KEY_CLASS, KEY_OPEN_BITE, KEY_ASYMMETRY, KEY_SET, KEY_COARSE, KEY_MEASURES };
+enum {
+    KEY_NORM = KEY_OWN,
+    KEY_SEX,
+    KEY_SEED,
+    KEY_CLASS,
+    KEY_OPEN_BITE,
+    KEY_ASYMMETRY,
+    KEY_SET,
+    KEY_COARSE,
+    KEY_MEASURES
+};
 
-typedef struct new_input {
-    command_options common;
+typedef struct new_options {
     norm_head_params p;
-    const char *folder;
     bool norm, list;
     bool asked; /* an option of --norm was given */
-} new_input;
+} new_options;
 
 static const struct argp_option options[] = {
     {"norm", KEY_NORM, NULL, 0, "Make a head from published norms; where absent, CASE holds a recipe.json", 1},
@@ -49,7 +57,7 @@ static int64_t whole(const char *arg, const char *what, int64_t low, int64_t hig
     return value;
 }
 
-static void set_measure(new_input *in, const char *arg, struct argp_state *state)
+static void set_measure(new_options *in, const char *arg, struct argp_state *state)
 {
     const char *equals = strchr(arg, '=');
     if (!equals) argp_error(state, "--set %s: write MEASURE=VALUE", arg);
@@ -69,12 +77,11 @@ static void set_measure(new_input *in, const char *arg, struct argp_state *state
     in->p.is_set[id] = true;
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    new_input *in = state->input;
+    new_options *in = r->own;
     if (key >= KEY_SEX && key <= KEY_COARSE) in->asked = true;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
     case KEY_NORM: in->norm = true; return 0;
     case KEY_SEX:
         if (strcmp(arg, "f") && strcmp(arg, "m")) argp_error(state, "--sex %s: must be f or m", arg);
@@ -87,26 +94,15 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_COARSE: in->p.coarseness = number(arg, "--coarseness", state); return 0;
     case KEY_SET: set_measure(in, arg, state); return 0;
     case KEY_MEASURES: in->list = true; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, &in->folder, 1, state);
     case ARGP_KEY_END:
-        if (!in->folder && !in->list) argp_error(state, "name the case folder to make");
+        if (!r->argument[0] && !in->list) argp_error(state, "name the case folder to make");
         if (in->asked && !in->norm) argp_error(state, "this option belongs to --norm; without it the recipe decides");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
 
-static const struct argp argp = {options,
-                                 parse,
-                                 "CASE",
-                                 "Makes a case of a head that nobody has: skin, skull, mandible, teeth and landmarks "
-                                 "built from published norms. CASE is a new folder with --norm, or an existing one "
-                                 "with a recipe.json, whose meshes are then made again.",
-                                 command_common,
-                                 NULL,
-                                 NULL};
-
-static int list_measures(void)
+static void list_measures(void)
 {
     printf("%-20s %14s %14s  %-20s %s\n", "measure", "women", "men", "source", "meaning");
     for (int i = 0; i < MEASURE_COUNT; i++) {
@@ -114,17 +110,16 @@ static int list_measures(void)
         printf("%-20s %6.1f +- %4.1f %6.1f +- %4.1f  %-20s %s\n", m->name, m->mean[0], m->sd[0], m->mean[1], m->sd[1],
                m->source, m->help);
     }
-    return 0;
 }
 
-static void print_result(const new_input *in, const norm_head *h)
+static void print_result(const run_context *r, const norm_head *h)
 {
-    if (in->common.json) {
+    if (r->common.json) {
         json_t *rows = json_object();
         for (int i = 0; i < MEASURE_COUNT; i++)
             json_object_set_new(rows, measures[i].name,
                                 json_pack("{s:f, s:f}", "asked", h->asked[i], "obtained", h->obtained[i]));
-        command_print_json(json_pack("{s:s, s:o}", "case", in->folder, "measures", rows), "new");
+        command_print_json(json_pack("{s:s, s:o}", "case", r->argument[0], "measures", rows), "new");
         return;
     }
     printf("%-20s %9s %9s\n", "measure", "asked", "obtained");
@@ -142,22 +137,24 @@ static char *base_name(const char *folder)
     return name;
 }
 
-static bool make(new_input *in, norm_head *h, err *e)
+static bool make(run_context *r, norm_head *h, err *e)
 {
-    size_t size = strlen(in->folder) + 16;
-    char *path = NEW_ARRAY(char, size), *name = base_name(in->folder);
-    snprintf(path, size, "%s/recipe.json", in->folder);
+    new_options *in = r->own;
+    const char *target = r->argument[0];
+    size_t size = strlen(target) + 16;
+    char *path = NEW_ARRAY(char, size), *name = base_name(target);
+    snprintf(path, size, "%s/recipe.json", target);
     bool again = !in->norm, ok = true;
     if (again) ok = norm_case_read_recipe(path, &in->p, e);
     free(path);
     whole_folder folder = {0};
-    if (ok && !again) ok = whole_folder_open(in->folder, &folder, e);
+    if (ok && !again) ok = whole_folder_open(target, &folder, e);
     if (ok) {
-        command_progress_at(&in->common, "shapes and meshes", -1);
+        command_progress_at(&r->common, "shapes and meshes", -1);
         ok = norm_head_build(&in->p, h, e);
         if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
     }
-    if (ok) ok = norm_case_write(h, again ? NULL : &in->p, again ? in->folder : folder.temporary, name, e);
+    if (ok) ok = norm_case_write(h, again ? NULL : &in->p, again ? target : folder.temporary, name, e);
     if (folder.path) {
         if (ok)
             ok = whole_folder_close(&folder, e);
@@ -168,15 +165,30 @@ static bool make(new_input *in, norm_head *h, err *e)
     return ok;
 }
 
-int command_new(int argc, char **argv)
+static void defaults(void *own) { *(new_options *)own = (new_options){.p = norm_head_params_default()}; }
+
+static bool run(run_context *r, err *e)
 {
-    new_input in = {.p = norm_head_params_default()};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    if (in.list) return list_measures();
-    err e = {0};
+    const new_options *in = r->own;
+    if (in->list) {
+        list_measures();
+        return true;
+    }
     norm_head h = {0};
-    bool ok = norm_head_params_check(&in.p, &e) && make(&in, &h, &e);
-    if (ok) print_result(&in, &h);
+    bool ok = norm_head_params_check(&in->p, e) && make(r, &h, e);
+    if (ok) print_result(r, &h);
     norm_head_free(&h);
-    return ok ? 0 : command_fail(&e);
+    return ok;
 }
+
+const verb verb_new = {.arguments = "CASE",
+                       .about =
+                           "Makes a case of a head that nobody has: skin, skull, mandible, teeth and landmarks built "
+                           "from published norms. CASE is a new folder with --norm, or an existing one with a "
+                           "recipe.json, whose meshes are then made again.",
+                       .options = options,
+                       .argument_count = 1,
+                       .own_size = sizeof(new_options),
+                       .defaults = defaults,
+                       .parse = parse,
+                       .run = run};

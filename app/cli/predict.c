@@ -1,6 +1,6 @@
 /* gnathos predict CASE --plan P -o OUT: the face after a plan. */
-#include "app/cli/command.h"
 #include "app/cli/outcome_print.h"
+#include "app/cli/verb.h"
 #include "app/planner/judge/plan_audit.h"
 #include "app/planner/predict/outcome.h"
 #include "geometry/clock.h"
@@ -12,49 +12,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct input {
-    command_options common;
-    const char *case_path[1], *plan, *out, *cache;
-    bool force, no_pictures, full;
-    contact_kind contact;
-};
+enum { KEY_NO_PICTURES = KEY_OWN, KEY_CONTACT, KEY_FULL };
 
-enum { KEY_CACHE = 300, KEY_NO_PICTURES, KEY_CONTACT, KEY_FULL };
+typedef struct predict_options {
+    bool no_pictures, full;
+    contact_kind contact;
+} predict_options;
 
 static const struct argp_option options[] = {
-    {"plan", 'p', "FILE", 0, "The plan: bone moves as JSON (gnathos help plan)", 0},
-    {"output", 'o', "DIR", 0, "Folder for the results", 0},
-    {"force", 'f', NULL, 0, "Replace an earlier output in DIR", 0},
+    OPTION_PLAN("The plan: bone moves as JSON (gnathos help plan)", 0),
+    OPTION_OUTPUT("Folder for the results"),
+    OPTION_FORCE,
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
     {"contact", KEY_CONTACT, "KIND", 0,
      "bones (default: tissue enters no bone), lips (and lips may part and mucosa lift off), off", 0},
     {"full", KEY_FULL, NULL, 0, "Solve for all tissue, also where it hardly moves", 0},
-    {"cache", KEY_CACHE, "DIR", 0, "Keep what is prepared in DIR instead of CASE/prepared", 0},
+    OPTION_CACHE,
     {0}};
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    struct input *in = state->input;
+    predict_options *o = r->own;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &in->common;
-        in->contact = CONTACT_BONES;
-        return 0;
-    case 'p': in->plan = arg; return 0;
-    case 'o': in->out = arg; return 0;
-    case 'f': in->force = true; return 0;
-    case KEY_NO_PICTURES: in->no_pictures = true; return 0;
+    case KEY_NO_PICTURES: o->no_pictures = true; return 0;
     case KEY_CONTACT:
-        if (!contact_kind_find(arg, &in->contact)) argp_error(state, "--contact is bones, lips or off, not %s", arg);
+        if (!contact_kind_find(arg, &o->contact)) argp_error(state, "--contact is bones, lips or off, not %s", arg);
         return 0;
-    case KEY_FULL: in->full = true; return 0;
-    case KEY_CACHE: in->cache = arg; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->case_path, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name a case"); return 0;
-    case ARGP_KEY_END:
-        if (!in->plan) argp_error(state, "name a plan with --plan");
-        if (!in->out) argp_error(state, "name a folder for the results with -o");
-        return 0;
+    case KEY_FULL: o->full = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -81,17 +65,19 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
 #endif
 
 /* Writes the output folder. Only an equilibrium becomes meshes and pictures; a failed solve leaves its record. */
-static bool write_all(const struct input *in, outcome *o, output_dir *dir, err *e)
+static bool write_all(const run_context *r, outcome *o, err *e)
 {
+    const predict_options *in = r->own;
+    const output_dir *dir = &r->dir;
     bool ok = true;
     double start = clock_s();
     if (o->points) {
-        command_progress_at(&in->common, "writing the meshes", 0.8);
+        command_progress_at(&r->common, "writing the meshes", 0.8);
         ok = outcome_write_meshes(o, dir, e);
         o->write_s = clock_s() - start;
 #if GNATHOS_WITH_RENDER
         if (ok && !in->no_pictures) {
-            command_progress_at(&in->common, "drawing the pictures", 0.85);
+            command_progress_at(&r->common, "drawing the pictures", 0.85);
             ok = draw(o, dir, e);
         }
 #endif
@@ -109,88 +95,64 @@ static bool write_all(const struct input *in, outcome *o, output_dir *dir, err *
 }
 
 /* The limits of bone and teeth come before the solve: a plan that passes one is refused unless it says why. */
-static bool judge_bones_first(const struct input *in, const case_file *c, const prepared *p, const plan_file *plan,
-                              const plan_moves *moves, judgement *out, err *e)
+static bool judge_bones_first(const run_context *r, judgement *out, err *e)
 {
     judge *j;
-    command_progress_at(&in->common, "judging the plan", 0.45);
-    if (!judge_create(c, p, &j, e)) return false;
-    judge_plan(j, moves, out);
+    command_progress_at(&r->common, "judging the plan", 0.45);
+    if (!judge_create(&r->patient, &r->prepared, &j, e)) return false;
+    judge_plan(j, &r->moves, out);
     judge_free(&j);
-    return judgement_allows(out, c, plan, e);
+    return judgement_allows(out, &r->patient, &r->plan, e);
 }
 
-static bool predict(const struct input *in, const case_file *c, const prepared *p, double prepare_s, const task *watch,
-                    output_dir *dir, bool *solved, err *e)
+static bool predict(const run_context *r, const judgement *limits, prediction *out, err *e)
 {
-    plan_file plan;
-    plan_moves moves;
-    judgement limits;
-    if (!plan_moves_load(in->plan, c, &p->points, &plan, &moves, e) ||
-        !judge_bones_first(in, c, p, &plan, &moves, &limits, e))
-        return false;
+    const predict_options *in = r->own;
     prediction_options asked = prediction_options_default();
-    prediction made;
     asked.contact = in->contact;
     asked.full = in->full;
-    asked.load_steps = plan.load_steps;
-    asked.bones = &limits;
-    if (!prediction_make(c, p, NULL, &moves, &asked, watch, &made, e)) {
-        if (e->code != ERR_INTERRUPTED) return false;
-        *e = (err){0};
-        return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
-    }
-    outcome o = outcome_of(c, p, &plan, &moves, in->contact, &made);
-    o.prepare_s = prepare_s;
-    *solved = made.solve.outcome == SOLVED;
-    bool ok = write_all(in, &o, dir, e) && output_dir_close(dir, e);
-    if (ok && in->common.json)
-        command_print_json(outcome_json(&o), "predict");
-    else if (ok) {
-        outcome_print(&o);
-        if (*solved) printf("Results in %s\n", in->out);
-    }
-    prediction_free(&made);
-    return ok;
+    asked.load_steps = r->plan.load_steps;
+    asked.bones = limits;
+    if (prediction_make(&r->patient, &r->prepared, NULL, &r->moves, &asked, &r->watch, out, e)) return true;
+    if (e->code != ERR_INTERRUPTED) return false;
+    *e = (err){0};
+    return err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
 }
 
-int command_predict(int argc, char **argv)
+static void defaults(void *own) { *(predict_options *)own = (predict_options){.contact = CONTACT_BONES}; }
+
+static bool run(run_context *r, err *e)
 {
-    static const struct argp argp = {options,        parse, "CASE", "Predict the face after a plan.",
-                                     command_common, NULL,  NULL};
-    struct input in = {0};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    const task watch = command_task(&in.common);
-    err e = {0};
-    case_file c;
-    landmarks points = {0};
-    plan_file plan;
-    plan_moves moves;
-    prepared p = {0};
-    bool solved = false;
-    double start = clock_s();
-    output_dir dir = {0};
-    /* a wrong plan or folder is told before the minutes of preparation */
-    if (!case_file_load(in.case_path[0], &c, &e) || !landmarks_read(c.landmarks, &points, NULL, &e) ||
-        !plan_moves_load(in.plan, &c, &points, &plan, &moves, &e) || !output_dir_open(in.out, in.force, &dir, &e))
-        return command_fail(&e);
-    if (!prepared_get(&c, in.cache, &watch, &p, &e)) {
-        output_dir_abandon(&dir);
-        return command_fail(&e);
+    const predict_options *in = r->own;
+    double prepare_s = clock_s() - r->start_s;
+    judgement limits;
+    prediction made;
+    if (!judge_bones_first(r, &limits, e) || !predict(r, &limits, &made, e)) return false;
+    outcome o = outcome_of(&r->patient, &r->prepared, &r->plan, &r->moves, in->contact, &made);
+    o.prepare_s = prepare_s;
+    bool solved = made.solve.outcome == SOLVED, ok = write_all(r, &o, e) && output_dir_close(&r->dir, e);
+    if (ok && r->common.json) {
+        command_print_json(outcome_json(&o), "predict");
+    } else if (ok) {
+        outcome_print(&o);
+        if (solved) printf("Results in %s\n", r->out_path);
     }
-    landmarks_free(&points);
-    bool ok = predict(&in, &c, &p, clock_s() - start, &watch, &dir, &solved, &e);
-    prepared_free(&p);
-    if (!ok) {
-        output_dir_abandon(&dir);
-        return command_fail(&e);
-    }
-    if (!solved) {
-        err_set(&e, ERR_NOT_CONVERGED,
-                "%s: the solve did not reach equilibrium, so there is no face to show; %s/outcome.json "
-                "has its record",
-                in.plan, in.out);
-        return command_fail(&e);
-    }
-    return 0;
+    prediction_free(&made);
+    return ok && (solved || err_set(e, ERR_NOT_CONVERGED,
+                                    "%s: the solve did not reach equilibrium, so there is no face to show; "
+                                    "%s/outcome.json has its record",
+                                    r->plan_path, r->out_path));
 }
+
+const verb verb_predict = {.arguments = "CASE",
+                           .about = "Predict the face after a plan.",
+                           .options = options,
+                           .argument_count = 1,
+                           .missing_argument = "name a case",
+                           .missing_plan = "name a plan with --plan",
+                           .missing_output = "name a folder for the results with -o",
+                           .need = NEED_CASE | NEED_POINTS | NEED_PLAN | NEED_OUTPUT | NEED_PREPARED,
+                           .own_size = sizeof(predict_options),
+                           .defaults = defaults,
+                           .parse = parse,
+                           .run = run};

@@ -1,5 +1,5 @@
 /* gnathos render OUT: pictures of an outcome. */
-#include "app/cli/command.h"
+#include "app/cli/verb.h"
 #include "geometry/clock.h"
 #include "app/planner/predict/outcome_read.h"
 #include "app/pictures/subject.h"
@@ -12,17 +12,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-struct input {
-    command_options common;
-    const char *folder[1], *out;
+typedef struct render_options {
     int width, height;
     double range;
     render_order order;
     gallery_style style;
-};
+} render_options;
 
 enum {
-    KEY_SHOW = 300,
+    KEY_SHOW = KEY_OWN,
     KEY_POSE,
     KEY_VIEW,
     KEY_TURNTABLE,
@@ -74,15 +72,13 @@ static void take(bool ok, const err *e, struct argp_state *state)
     if (!ok) argp_error(state, "%s", e->text);
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
-    struct input *in = state->input;
+    render_options *in = r->own;
     double number;
     char rest;
     err e = {0};
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &in->common; return 0;
-    case 'o': in->out = arg; return 0;
     case 's':
         if (sscanf(arg, "%dx%d%c", &in->width, &in->height, &rest) != 2 || in->width < 100 || in->height < 100 ||
             in->width > 8192 || in->height > 8192)
@@ -118,8 +114,6 @@ static error_t parse(int key, char *arg, struct argp_state *state)
         in->style.sex = *arg;
         return 0;
     case KEY_NO_LABELS: in->style.labels = false; return 0;
-    case ARGP_KEY_ARG: return command_take(arg, in->folder, 1, state);
-    case ARGP_KEY_NO_ARGS: argp_error(state, "name the folder of an outcome"); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -144,8 +138,9 @@ static bool read_outcome(const char *folder, drawn *d, err *e)
            outcome_segments_read(folder, &d->record, &d->at_rest, d->move, e);
 }
 
-static bool draw_order(const struct input *in, gallery *g, const char *folder, json_t *files, err *e)
+static bool draw_order(const run_context *r, gallery *g, const char *folder, json_t *files, err *e)
 {
+    const render_options *in = r->own;
     int count = order_picture_count(&in->order);
     for (int i = 0; i < count; i++) {
         order_picture p = order_picture_at(&in->order, i);
@@ -153,17 +148,18 @@ static bool draw_order(const struct input *in, gallery *g, const char *folder, j
         char path[1400];
         if (command_interrupted()) return err_set(e, ERR_INTERRUPTED, "interrupted after %d of %d pictures", i, count);
         snprintf(path, sizeof path, "%s/%s.png", folder, p.name);
-        command_progress_at(&in->common, "drawing the pictures", (double)i / count);
+        command_progress_at(&r->common, "drawing the pictures", (double)i / count);
         if (!gallery_write(g, &what, path, e)) return false;
         json_array_append_new(files, json_string(path));
     }
     return true;
 }
 
-static bool draw_standard(const struct input *in, gallery *g, const char *folder, json_t *files, err *e)
+static bool draw_standard(const run_context *r, gallery *g, const char *folder, json_t *files, err *e)
 {
+    const render_options *in = r->own;
     bool *written = calloc((size_t)standard_set_count, sizeof *written);
-    command_progress_at(&in->common, "drawing the pictures", -1);
+    command_progress_at(&r->common, "drawing the pictures", -1);
     bool ok = standard_set_write(g, in->width, in->height, folder, written, e);
     for (int i = 0; ok && i < standard_set_count; i++) {
         char path[1400];
@@ -174,8 +170,9 @@ static bool draw_standard(const struct input *in, gallery *g, const char *folder
     return ok;
 }
 
-static bool draw(const struct input *in, const drawn *d, const char *folder, json_t *files, err *e)
+static bool draw(const run_context *r, const drawn *d, const char *folder, json_t *files, err *e)
 {
+    const render_options *in = r->own;
     const json_t *root = d->record.file.root;
     pictures_input what = {.case_name = text_of(root, "case"),
                            .plan_text = text_of(json_object_get(root, "plan"), "name"),
@@ -198,55 +195,61 @@ static bool draw(const struct input *in, const drawn *d, const char *folder, jso
     if (ok && !made && errno != EEXIST)
         ok = err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made: %s", strerror(errno));
     ok = ok &&
-         (order_is_standard(&in->order) ? draw_standard(in, g, folder, files, e) : draw_order(in, g, folder, files, e));
+         (order_is_standard(&in->order) ? draw_standard(r, g, folder, files, e) : draw_order(r, g, folder, files, e));
     if (!ok && made) rmdir(folder); /* goes if no picture is in it */
     gallery_close(&g);
     pictures_subject_free(&p);
     return ok;
 }
 
-static void print(const struct input *in, json_t *files, double load_s, double draw_s, double draw_cpu_s)
+static void print(const run_context *r, json_t *files, double load_s, double draw_s, double draw_cpu_s)
 {
     size_t i;
     json_t *file;
-    if (in->common.json) {
+    if (r->common.json) {
         command_print_json(json_pack("{sO s{sf sf sf}}", "files", files, "seconds", "load", load_s, "draw", draw_s,
                                      "draw_cpu", draw_cpu_s),
                            "render");
         return;
     }
-    if (!in->common.quiet) json_array_foreach(files, i, file) puts(json_string_value(file));
+    if (!r->common.quiet) json_array_foreach(files, i, file) puts(json_string_value(file));
 }
 
-int command_render(int argc, char **argv)
+static void defaults(void *own)
 {
-    static const struct argp argp = {
-        options,
-        parse,
-        "OUT",
-        "Draw pictures of an outcome of gnathos predict: the standard set, or those asked for with "
-        "--show, --pose, --view and --turntable, which are named after them.",
-        command_common,
-        NULL,
-        NULL};
-    struct input in = {.width = PICTURES_WIDTH, .height = PICTURES_HEIGHT, .style = gallery_style_default()};
-    argp_parse(&argp, argc, argv, 0, NULL, &in);
-    in.style.displacement_mm = in.style.stretch_percent = in.range;
-    in.style.signed_mm = in.range > 0 ? in.range : 10; /* fixed: pictures of different plans compare */
-    err e = {0};
+    *(render_options *)own =
+        (render_options){.width = PICTURES_WIDTH, .height = PICTURES_HEIGHT, .style = gallery_style_default()};
+}
+
+static bool run(run_context *r, err *e)
+{
+    render_options *in = r->own;
+    in->style.displacement_mm = in->style.stretch_percent = in->range;
+    in->style.signed_mm = in->range > 0 ? in->range : 10; /* fixed: pictures of different plans compare */
     drawn d = {0};
     char folder[1200];
-    snprintf(folder, sizeof folder, "%s%s", in.out ? in.out : in.folder[0], in.out ? "" : "/pictures");
+    snprintf(folder, sizeof folder, "%s%s", r->out_path ? r->out_path : r->argument[0], r->out_path ? "" : "/pictures");
     json_t *files = json_array();
-    double start = clock_s();
-    bool ok = read_outcome(in.folder[0], &d, &e);
+    bool ok = read_outcome(r->argument[0], &d, e);
     double loaded = clock_s(), cpu = clock_cpu_s();
-    ok = ok && draw(&in, &d, folder, files, &e);
-    if (ok) print(&in, files, loaded - start, clock_s() - loaded, clock_cpu_s() - cpu);
+    ok = ok && draw(r, &d, folder, files, e);
+    if (ok) print(r, files, loaded - r->start_s, clock_s() - loaded, clock_cpu_s() - cpu);
     json_decref(files);
     outcome_record_free(&d.record);
     surface_free(&d.skin_before);
     surface_free(&d.skin_after);
     segments_free(&d.at_rest);
-    return ok ? 0 : command_fail(&e);
+    return ok;
 }
+
+const verb verb_render = {.arguments = "OUT",
+                          .about =
+                              "Draw pictures of an outcome of gnathos predict: the standard set, or those asked for "
+                              "with --show, --pose, --view and --turntable, which are named after them.",
+                          .options = options,
+                          .argument_count = 1,
+                          .missing_argument = "name the folder of an outcome",
+                          .own_size = sizeof(render_options),
+                          .defaults = defaults,
+                          .parse = parse,
+                          .run = run};
