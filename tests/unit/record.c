@@ -74,7 +74,7 @@ static robot some(void)
 {
     return (robot){.name = "R2",
                    .mass_kg = 3,
-                   .place = {1, NAN, 2},
+                   .place = {1, (double)NAN, 2},
                    .wheels = 3,
                    .steps = 5000000000,
                    .runs = true,
@@ -104,7 +104,7 @@ static void writes_the_fields_in_the_order_of_the_rows(void **state)
                    "\"place\":[1.0,null,2.0],\"wheels\":3,\"steps\":5000000000,\"runs\":true,\"gait\":\"very fast\","
                    "\"arm\":null,\"joints\":[{\"name\":\"knee\",\"angle_deg\":null}],"
                    "\"by_name\":{\"knee\":{\"name\":\"knee\",\"angle_deg\":null}}}");
-    r = (robot){.note = "none", .mass_kg = NAN, .arm = &arm};
+    r = (robot){.note = "none", .mass_kg = (double)NAN, .arm = &arm};
     assert_json(record_part(&robot_table, &r),
                 "{\"name\":\"\",\"body\":{\"mass_kg\":null,\"twice_kg\":null},\"place\":[0.0,0.0,0.0],\"steps\":0,"
                 "\"runs\":false,\"gait\":\"slow\",\"note\":\"none\",\"arm\":{\"name\":\"elbow\",\"angle_deg\":30.0},"
