@@ -89,6 +89,8 @@ typedef struct solve_params {
 } solve_params;
 
 solve_params solve_params_default(void);
+/* Refuses (ERR_INPUT) what is out of range. */
+bool solve_params_check(const solve_params *p, err *e) MUST_CHECK;
 
 typedef struct equilibrium_problem {
     const tetmesh *mesh;

@@ -259,7 +259,7 @@ static double sphere_error(material_model model, int n, double slope)
     descent d;
     solve_outcome outcome;
     descent_make(&d, t, &params, &q);
-    assert_ok(descent_run(&d, 1, 1e-10, false, false, m.xyz, &outcome, &e));
+    assert_ok(load_run(&d, &(load_task){.load = 1, .rel_tol = 1e-10}, m.xyz, &outcome, &e));
     assert_int_equal(outcome, SOLVED);
     double sum = 0;
     int32_t free_nodes = 0;
@@ -268,7 +268,7 @@ static double sphere_error(material_model model, int n, double slope)
         const double *X = m.xyz + 3 * (size_t)v;
         double want[3], R = vec_norm(X);
         vec_scale(X, shoot(model, slope, R) / R, want);
-        sum += pow(vec_distance(want, d.x + 3 * (size_t)v), 2);
+        sum += pow(vec_distance(want, d.here.x + 3 * (size_t)v), 2);
         free_nodes++;
     }
     descent_free(&d);

@@ -32,13 +32,13 @@ static void an_affine_boundary_gives_an_affine_inside(void **state)
         descent d;
         solve_outcome outcome;
         descent_make(&d, t, &params, &q);
-        assert_ok(descent_run(&d, 1, 1e-15, false, false, s.mesh.xyz, &outcome, &e));
+        assert_ok(load_run(&d, &(load_task){.load = 1, .rel_tol = 1e-15}, s.mesh.xyz, &outcome, &e));
         assert_int_equal(outcome, SOLVED);
         assert_true(d.t->b.unknown_count > 30);
         for (int32_t v = 0; v < s.mesh.vertex_count; v++) {
             double want[3];
             mat_apply(A, s.mesh.xyz + 3 * (size_t)v, want);
-            assert_near(keep_worst(&worst, vec_distance(want, d.x + 3 * (size_t)v)), 0, 1e-12);
+            assert_near(keep_worst(&worst, vec_distance(want, d.here.x + 3 * (size_t)v)), 0, 1e-12);
         }
         descent_free(&d);
         equilibrium_free(&q);

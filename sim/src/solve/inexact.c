@@ -42,7 +42,7 @@ bool inexact_matrix(descent *d, const double *x, hessian_kind kind, bool near_en
     node_blocks_fill(&t->f, &t->a, t->a.value, &t->k);
     *ok = true;
     bool fine = true;
-    bool old = t->grid_loss > GRID_COST || (d->touching && contact_stiffness_is_old(t->touch));
+    bool old = t->grid_loss > GRID_COST || (load_touching(&d->load) && contact_stiffness_is_old(t->touch));
     if (!t->grid || old) fine = make_grid(d, x, ok, e);
     if (fine && !*ok && kind == HESSIAN_TRUE) { /* of the clamped matrix, for the true one */
         direct_fill(d, x, d->params->projection);
@@ -78,7 +78,7 @@ static bool gradients(descent *d, const double *b, double rel_tol, double *u, in
         node_blocks_gather(&t->f, found, u);
         *cg_iterations += r->iterations;
         d->out->cg_iterations += r->iterations;
-        d->cg_at_load += r->iterations;
+        d->load.cg_iterations += r->iterations;
     }
     free(side);
     free(found);
@@ -98,43 +98,44 @@ bool inexact_solve(descent *d, const double *b, double rel_tol, double *u, int *
 /* Eisenstat & Walker 1996, choice 2; never below what the tolerance asks for. */
 static double forcing(const descent *d)
 {
-    double rate = d->residual_before > 0 ? d->residual / d->residual_before : 0.3;
-    double enough = d->residual > d->tolerance ? 0.5 * d->tolerance / d->residual : 0.1;
+    double rate = d->load.residual_before > 0 ? d->residual / d->load.residual_before : 0.3;
+    double enough = d->residual > d->load.tolerance_mn ? 0.5 * d->load.tolerance_mn / d->residual : 0.1;
     return fmax(fmin(0.9 * rate * rate, 0.1), enough);
 }
 
 /* A direction of negative curvature was met after a step that had to be cut, so what the truncated iteration
  * finds is no good guide: between the true matrix, in which a direction of negative curvature was met, and
  * the clamped one, the first in a coarse ladder in which no such direction is met; see direct.c. */
-static bool blend(descent *d, hessian_kind *kind, int *cg_iterations, cg_result *r, err *e)
+static bool blend(descent *d, step_taken *s, cg_result *r, err *e)
 {
     solver *t = d->t;
     assembly *a = &t->a;
     int64_t entries = a->column_start[a->unknown_count];
     double *true_value = COPY_ARRAY(double, a->value, entries), *mixed = NEW_ARRAY(double, entries);
-    double part = direct_first_rung(d);
+    double part = direct_first_rung(&d->direct);
     bool fine = true;
-    direct_fill(d, d->x, d->params->projection);
-    for (*kind = HESSIAN_BLENDED; fine && r->indefinite && *kind == HESSIAN_BLENDED; part *= 2) {
-        if (part >= 1) *kind = HESSIAN_PROJECTED;
-        d->blend = fmin(part, 1);
-        for (int64_t i = 0; i < entries; i++) mixed[i] = true_value[i] + d->blend * (a->value[i] - true_value[i]);
+    direct_fill(d, d->here.x, d->params->projection);
+    for (s->kind = HESSIAN_BLENDED; fine && r->indefinite && s->kind == HESSIAN_BLENDED; part *= 2) {
+        if (part >= 1) s->kind = HESSIAN_PROJECTED;
+        d->direct.blend = fmin(part, 1);
+        for (int64_t i = 0; i < entries; i++)
+            mixed[i] = true_value[i] + d->direct.blend * (a->value[i] - true_value[i]);
         node_blocks_fill(&t->f, a, mixed, &t->k);
-        fine = gradients(d, d->g, forcing(d), d->direction, cg_iterations, r, e);
+        fine = gradients(d, d->here.g, forcing(d), d->direction, &s->cg_iterations, r, e);
     }
     free(true_value);
     free(mixed);
     return fine;
 }
 
-bool inexact_direction(descent *d, hessian_kind *kind, int *cg_iterations, bool *ok, double *seconds, err *e)
+bool inexact_direction(descent *d, step_taken *s, bool *ok, err *e)
 {
     cg_result r;
-    if (!inexact_matrix(d, d->x, *kind, false, ok, seconds, e)) return false;
+    if (!inexact_matrix(d, d->here.x, s->kind, false, ok, &s->factor_s, e)) return false;
     if (!*ok) return true;
-    if (!gradients(d, d->g, forcing(d), d->direction, cg_iterations, &r, e)) return false;
+    if (!gradients(d, d->here.g, forcing(d), d->direction, &s->cg_iterations, &r, e)) return false;
     note_age(d->t, &r);
-    if (*kind == HESSIAN_TRUE && r.indefinite && d->cut && !blend(d, kind, cg_iterations, &r, e)) return false;
+    if (s->kind == HESSIAN_TRUE && r.indefinite && d->load.was_cut && !blend(d, s, &r, e)) return false;
     *ok = r.indefinite || r.reduction < 0.5;
     for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->direction[i] = -d->direction[i];
     return true;

@@ -1,10 +1,26 @@
-#include "geometry/mem.h"
-#include "geometry/vec.h"
+/* Iterates and the line search. */
 #include "geometry/clock.h"
+#include "geometry/mem.h"
 #include "sim/src/solve/descent.h"
+#include <math.h>
+#include <stdlib.h>
 
 static const double armijo = 1e-4;
 static const double touching_step_mm = 3; /* colliders are renewed after each step */
+
+static point new_point(const solver *t)
+{
+    size_t n = (size_t)t->b.unknown_count, c = 3 * (size_t)t->b.node_count;
+    return (point){NEW_ARRAY(double, n), NEW_ARRAY(double, c), NEW_ARRAY(double, c), NEW_ARRAY(double, n)};
+}
+
+static void free_point(point *p)
+{
+    free(p->z);
+    free(p->x);
+    free(p->force);
+    free(p->g);
+}
 
 double point_dot(const double *a, const double *b, int64_t n)
 {
@@ -13,66 +29,56 @@ double point_dot(const double *a, const double *b, int64_t n)
     return sum;
 }
 
-double point_evaluate(descent *d, const double *x, double *force, double *g)
+void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out)
 {
-    double begin = clock_s(), energy = assembly_energy(&d->t->a, x, force);
-    if (d->touching && isfinite(energy)) energy += contact_energy(d->t->touch, x, force);
-    boundary_reduce(&d->t->b, force, g);
+    *d = (descent){.t = t,
+                   .params = params,
+                   .out = out,
+                   .here = new_point(t),
+                   .trial = new_point(t),
+                   .direction = NEW_ARRAY(double, t->b.unknown_count),
+                   .direct = direct_begin()};
+}
+
+void descent_free(descent *d)
+{
+    free_point(&d->here);
+    free_point(&d->trial);
+    free(d->direction);
+    direct_free(&d->direct);
+    *d = (descent){0};
+}
+
+double point_evaluate(descent *d, bool touching, const double *x, point *p)
+{
+    double begin = clock_s(), energy = term_energy(&d->t->terms, touching, x, p->force);
+    boundary_reduce(&d->t->b, p->force, p->g);
     d->out->assemble_s += clock_s() - begin;
     return energy;
 }
 
-static void swap(double **a, double **b)
+static void set_energy(descent *d, double energy)
 {
-    double *c = *a;
-    *a = *b;
-    *b = c;
+    d->energy = energy;
+    d->residual = sqrt(point_dot(d->here.g, d->here.g, d->t->b.unknown_count));
 }
 
 void point_accept(descent *d, double energy)
 {
-    swap(&d->z, &d->z_new);
-    swap(&d->x, &d->x_new);
-    swap(&d->force, &d->force_new);
-    swap(&d->g, &d->g_new);
-    d->energy = energy;
-    d->residual = sqrt(point_dot(d->g, d->g, d->t->b.unknown_count));
+    point old = d->here;
+    d->here = d->trial;
+    d->trial = old;
+    set_energy(d, energy);
 }
 
-void point_measure(descent *d)
-{
-    d->energy = point_evaluate(d, d->x, d->force, d->g);
-    d->residual = sqrt(point_dot(d->g, d->g, d->t->b.unknown_count));
-}
+void point_measure(descent *d) { set_energy(d, point_evaluate(d, load_touching(&d->load), d->here.x, &d->here)); }
 
-void point_record(descent *d, int iteration, double step, hessian_kind kind, double factor_s, int cg_iterations)
+double point_yield(descent *d, point *p)
 {
-    equilibrium *q = d->out;
-    if ((q->record_count & (q->record_count - 1)) == 0) /* room is the next power of two */
-        q->record = GROW_ARRAY(solve_record, q->record, q->record_count ? 2 * (size_t)q->record_count : 1);
-    deformation_extremes ex = assembly_extremes(&d->t->a, d->x, false);
-    solve_record *r = &q->record[q->record_count++];
-    *r = (solve_record){.load = d->load,
-                        .iteration = iteration,
-                        .residual_mn = d->residual,
-                        .tolerance_mn = d->tolerance,
-                        .energy_uj = d->energy,
-                        .step = step,
-                        .hessian = kind,
-                        .cg_iterations = cg_iterations,
-                        .factor_s = factor_s,
-                        .min_j = ex.min_j,
-                        .inverted_count = ex.inverted_count,
-                        .contact = d->touching};
-    if (d->params->progress) d->params->progress(r, d->params->context);
-}
-
-double point_yield(descent *d, double *x, double *z)
-{
-    double farthest = contact_yield(d->t->touch, &d->t->b, z);
+    double farthest = contact_yield(d->t->touch, &d->t->b, p->z);
     if (!(farthest > 0)) return 0;
-    boundary_place(&d->t->b, z, x);
-    contact_retract(d->t->touch, d->t->attach, x);
+    boundary_place(&d->t->b, p->z, p->x);
+    contact_retract(d->t->touch, d->t->attach, p->x);
     return farthest;
 }
 
@@ -82,21 +88,21 @@ static bool falls_enough(const descent *d, double energy, double step, double sl
     int64_t n = d->t->b.unknown_count;
     if (!isfinite(energy)) return false;
     if (energy <= d->energy + armijo * step * slope) return true;
-    return energy <= d->energy + d->energy_noise && /* too near for the energy to tell */
-           point_dot(d->g_new, d->g_new, n) < point_dot(d->g, d->g, n);
+    return energy <= d->energy + d->load.energy_noise_uj && /* too near for the energy to tell */
+           point_dot(d->trial.g, d->trial.g, n) < point_dot(d->here.g, d->here.g, n);
 }
 
 /* Energy of the trial point z_new. */
 static double try_point(descent *d)
 {
-    boundary_place(&d->t->b, d->z_new, d->x_new);
-    if (d->touching) contact_retract(d->t->touch, d->t->attach, d->x_new);
-    return point_evaluate(d, d->x_new, d->force_new, d->g_new);
+    boundary_place(&d->t->b, d->trial.z, d->trial.x);
+    if (load_touching(&d->load)) contact_retract(d->t->touch, d->t->attach, d->trial.x);
+    return point_evaluate(d, load_touching(&d->load), d->trial.x, &d->trial);
 }
 
 static void set_trial(descent *d, double step)
 {
-    for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->z_new[i] = d->z[i] + step * d->direction[i];
+    for (int64_t i = 0; i < d->t->b.unknown_count; i++) d->trial.z[i] = d->here.z[i] + step * d->direction[i];
 }
 
 /* The trial point after this fraction of the direction; contacts give way where it would else be too high,
@@ -107,8 +113,8 @@ static bool try_step(descent *d, double step, double slope, double *energy, doub
     *energy = try_point(d);
     *yielded = 0;
     bool falls = falls_enough(d, *energy, step, slope);
-    if (!d->touching || !isfinite(*energy) || (falls && !d->warm)) return falls;
-    *yielded = contact_yield(d->t->touch, &d->t->b, d->z_new);
+    if (!load_touching(&d->load) || !isfinite(*energy) || (falls && !d->load.task.near)) return falls;
+    *yielded = contact_yield(d->t->touch, &d->t->b, d->trial.z);
     if (!(*yielded > 0)) return falls;
     double before = *energy;
     *energy = try_point(d);
@@ -123,16 +129,16 @@ static bool try_step(descent *d, double step, double slope, double *energy, doub
 double point_line_search(descent *d)
 {
     int64_t n = d->t->b.unknown_count;
-    double slope = point_dot(d->g, d->direction, n), longest = 0, energy, yielded;
+    double slope = point_dot(d->here.g, d->direction, n), longest = 0, energy, yielded;
     if (!(slope < 0)) return 0;
     for (int64_t i = 0; i < n; i++) longest = fmax(longest, fabs(d->direction[i]));
-    if (d->touching) contact_mark(d->t->touch);
-    double limit = d->touching ? fmin(touching_step_mm, d->params->max_step_mm) : d->params->max_step_mm;
+    if (load_touching(&d->load)) contact_mark(d->t->touch);
+    double limit = load_touching(&d->load) ? fmin(touching_step_mm, d->params->max_step_mm) : d->params->max_step_mm;
     double step = longest > limit ? limit / longest : 1;
     for (int cut = 0; cut <= d->params->max_step_cuts; cut++, step /= 2) {
         if (!try_step(d, step, slope, &energy, &yielded)) continue;
-        d->residual_before = d->residual;
-        d->last_step = fmax(step * longest, yielded);
+        d->load.residual_before = d->residual;
+        d->load.last_step_mm = fmax(step * longest, yielded);
         point_accept(d, energy);
         return step;
     }
