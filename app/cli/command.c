@@ -109,6 +109,13 @@ void command_print_json(json_t *object, const char *verb_name)
     json_decref(object);
 }
 
+void command_print_record(json_t *record)
+{
+    json_dumpf(record, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    putchar('\n');
+    json_decref(record);
+}
+
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int number)

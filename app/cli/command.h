@@ -28,6 +28,8 @@ task command_task(const command_options *o);
 /* On stderr: a line where it is a terminal or --progress=plain, a JSON line with --progress=json. fraction < 0:
  * not known. */
 void command_progress_at(const command_options *o, const char *stage, double fraction);
+/* Prints a record, as json_file_write puts it into a file, and frees it. */
+void command_print_record(json_t *record);
 /* Prints the object with "schema" ("gnathos.<verb>.1") and "version" set, and frees it. */
 void command_print_json(json_t *object, const char *verb_name);
 

@@ -1,6 +1,6 @@
 /* gnathos cut CASE -o DIR: the bones of a case cut along its osteotomies, as files. */
 #include "app/cli/verb.h"
-#include "app/planner/patient/prepared_report.h"
+#include "app/planner/patient/cut_record.h"
 #include "geometry/mesh_file.h"
 #include "geometry/plane_file.h"
 #if GNATHOS_WITH_RENDER
@@ -58,20 +58,6 @@ static bool write_picture(const anatomy *a, const char *title, const output_dir 
 #endif
 }
 
-static json_t *make_report(const case_file *c, const anatomy *a)
-{
-    json_t *planes = json_array();
-    for (int i = 0; i < a->cuts.plane_count; i++) {
-        const cut_plane *p = &a->cuts.plane[i];
-        json_array_append_new(planes,
-                              json_pack("{ss s[fff] s[fff]}", "name", p->label, "point", p->point[0], p->point[1],
-                                        p->point[2], "normal", p->normal[0], p->normal[1], p->normal[2]));
-    }
-    return json_pack("{ss ss sf s{so so} so so}", "schema", "gnathos.cut.1", "case", c->name, "saw_mm", c->cuts.kerf_mm,
-                     "repair", "skull", repair_report_json(&a->skull_repair), "mandible",
-                     repair_report_json(&a->mandible_repair), "cuts", cuts_report(&a->cuts), "planes", planes);
-}
-
 static void print_plain(const anatomy *a, const char *target)
 {
     const cut_report *r = &a->cuts;
@@ -104,15 +90,9 @@ static bool write_all(const case_file *c, const anatomy *a, const json_t *report
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (!write_bone(&a->segments.part[s], segment_name((segment_id)s), d, e)) return false;
     if (!write_bone(&a->segments.kerf, "kerf", d, e)) return false;
-    static const char *const reports[] = {"cut_report.json", "manifest.json"}; /* the latter marks our folders */
-    json_t *manifest = json_pack("{ss ss}", "schema", "gnathos.cut.1", "report", reports[0]);
-    bool ok = true;
-    for (int k = 0; k < 2 && ok; k++) {
-        char *path = output_dir_file(d, reports[k]);
-        ok = json_file_write(k ? manifest : report, path, e);
-        free(path);
-    }
-    json_decref(manifest);
+    char *to = output_dir_file(d, "cut_report.json");
+    bool ok = json_file_write(report, to, e);
+    free(to);
     if (ok && a->cuts.plane_count) {
         char *path = output_dir_file(d, "cut_planes.mrk.json");
         ok = planes_write(a->cuts.plane, a->cuts.plane_count, path, e);
@@ -125,13 +105,13 @@ static bool run(run_context *r, err *e)
 {
     anatomy a = {0};
     bool ok = anatomy_make(&r->patient, false, &r->watch, &a, e);
-    json_t *report = ok ? make_report(&r->patient, &a) : NULL;
+    json_t *report = ok ? cut_record_json(&r->patient, &a) : NULL;
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
     ok = ok && write_all(&r->patient, &a, report, &r->dir, e) && output_dir_close(&r->dir, e);
     if (ok && !GNATHOS_WITH_RENDER)
         command_note(&r->common, "no picture: this build has no renderer (GNATHOS_RENDER=OFF)");
     if (ok && r->common.json)
-        command_print_json(json_incref(report), "cut");
+        command_print_record(json_incref(report));
     else if (ok)
         print_plain(&a, r->out_path);
     json_decref(report);

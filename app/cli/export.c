@@ -1,4 +1,5 @@
 /* gnathos export OUT --format F -o DIR: the shapes of an outcome, before and as planned, for other programs. */
+#include "app/cli/made_record.h"
 #include "app/cli/verb.h"
 #include "app/planner/predict/outcome_read.h"
 #include "geometry/glb_file.h"
@@ -75,53 +76,70 @@ static int make_shapes(const outcome_shapes *o, shape out[SHAPES_MAX])
     return count;
 }
 
-static bool write_glb(const shape *shapes, int count, const char *folder, err *e)
+typedef struct place {           /* where the files go */
+    const char *folder, *target; /* until all are there, and then */
+    json_t *files;               /* their paths then */
+} place;
+
+enum { PATH_SIZE = 4096 };
+
+static void take_name(const place *to, const char *name, char path[PATH_SIZE])
+{
+    snprintf(path, PATH_SIZE, "%s/%s", to->target, name);
+    json_array_append_new(to->files, json_string(path));
+    snprintf(path, PATH_SIZE, "%s/%s", to->folder, name);
+}
+
+static bool write_glb(const shape *shapes, int count, const place *to, err *e)
 {
     glb_shape all[SHAPES_MAX];
     for (int i = 0; i < count; i++) {
         const shape *s = &shapes[i];
         all[i] = (glb_shape){s->name, s->rest, s->planned, {s->rgb[0], s->rgb[1], s->rgb[2]}};
     }
-    char path[4096];
-    snprintf(path, sizeof path, "%s/head.glb", folder);
+    char path[PATH_SIZE];
+    take_name(to, "head.glb", path);
     return glb_write(all, count, path, e);
 }
 
 /* NAME.vtp at rest, with where each of its points goes. */
-static bool write_arrays(const shape *s, const char *folder, err *e)
+static bool write_arrays(const shape *s, const place *to, err *e)
 {
     size_t n = 3 * (size_t)s->rest->vertex_count;
     double *u = NEW_ARRAY(double, n);
     for (size_t i = 0; s->planned && i < n; i++) u[i] = s->planned[i] - s->rest->xyz[i];
     point_array array = {"displacement", 3, u};
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s.vtp", folder, s->name);
+    char path[PATH_SIZE], name[64];
+    snprintf(name, sizeof name, "%.39s.vtp", s->name);
+    take_name(to, name, path);
     bool ok = mesh_write_surface_arrays(s->rest, &array, 1, path, e);
     free(u);
     return ok;
 }
 
 /* NAME_before and NAME_after; what stays is written once, as NAME. */
-static bool write_meshes(const shape *s, const char *format, const char *folder, err *e)
+static bool write_meshes(const shape *s, const char *format, const place *to, err *e)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s%s.%s", folder, s->name, s->planned ? "_before" : "", format);
+    char path[PATH_SIZE], name[64];
+    snprintf(name, sizeof name, "%.39s%s.%s", s->name, s->planned ? "_before" : "", format);
+    take_name(to, name, path);
     if (!mesh_write_surface(s->rest, path, e)) return false;
     if (!s->planned) return true;
     surface after = *s->rest;
     after.xyz = s->planned;
-    snprintf(path, sizeof path, "%s/%s_after.%s", folder, s->name, format);
+    snprintf(name, sizeof name, "%.39s_after.%s", s->name, format);
+    take_name(to, name, path);
     return mesh_write_surface(&after, path, e);
 }
 
-static bool write_all(const outcome_shapes *o, const char *format, const char *folder, err *e)
+static bool write_all(const outcome_shapes *o, const char *format, const place *to, err *e)
 {
     shape shapes[SHAPES_MAX];
     int count = make_shapes(o, shapes);
     bool ok = true, glb = !strcmp(format, "glb"), arrays = !strcmp(format, "vtp");
-    if (glb) ok = write_glb(shapes, count, folder, e);
+    if (glb) ok = write_glb(shapes, count, to, e);
     for (int i = 0; ok && !glb && i < count; i++)
-        ok = arrays ? write_arrays(&shapes[i], folder, e) : write_meshes(&shapes[i], format, folder, e);
+        ok = arrays ? write_arrays(&shapes[i], to, e) : write_meshes(&shapes[i], format, to, e);
     for (int i = 0; i < count; i++) free(shapes[i].planned);
     return ok;
 }
@@ -131,11 +149,18 @@ static bool run(run_context *r, err *e)
     const export_options *o = r->own;
     outcome_shapes shapes = {0};
     whole_folder folder = {0};
-    bool ok = outcome_shapes_read(r->argument[0], &shapes, e) && whole_folder_open(r->out_path, &folder, e) &&
-              write_all(&shapes, o->format, folder.temporary, e) && whole_folder_close(&folder, e);
+    bool ok = outcome_shapes_read(r->argument[0], &shapes, e) && whole_folder_open(r->out_path, &folder, e);
+    json_t *files = json_array();
+    const place to = {folder.temporary, r->out_path, files};
+    ok = ok && write_all(&shapes, o->format, &to, e) && whole_folder_close(&folder, e);
     whole_folder_abandon(&folder);
     outcome_shapes_free(&shapes);
-    if (ok && !r->common.quiet) printf("Results in %s\n", r->out_path);
+    const made_record made = {.verb = "export", .files = files};
+    if (ok && r->common.json)
+        command_print_record(record_json(&made_record_table, &made));
+    else if (ok && !r->common.quiet)
+        printf("Results in %s\n", r->out_path);
+    json_decref(files);
     return ok;
 }
 

@@ -1,10 +1,37 @@
-/* gnathos help [VERB | case | plan | landmarks] */
+/* gnathos help [VERB | case | plan | landmarks | records | KIND] */
 #include "app/cli/fields_help.h"
+#include "app/cli/records.h"
 #include "app/cli/verb.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "app/planner/store/suggest.h"
 #include <stdio.h>
 #include <string.h>
+
+typedef struct help_options {
+    bool record, schema;
+} help_options;
+
+enum { KEY_RECORD = KEY_OWN, KEY_SCHEMA, NAMES_MAX = 96 };
+
+static const struct argp_option options[] = {
+    {"record", KEY_RECORD, NULL, 0, "The fields of records of this KIND, which can be named as a verb is", 0},
+    {"schema", KEY_SCHEMA, NULL, 0, "JSON schema of records of this KIND", 0},
+    {0}};
+
+static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
+{
+    help_options *in = r->own;
+    (void)arg;
+    switch (key) {
+    case KEY_RECORD: in->record = true; return 0;
+    case KEY_SCHEMA: in->schema = true; return 0;
+    case ARGP_KEY_END:
+        if ((in->record || in->schema) && !r->argument[0])
+            argp_error(state, "name a kind of records (gnathos help records lists them)");
+        return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
 
 static void print_overview(void)
 {
@@ -15,11 +42,12 @@ static void print_overview(void)
     printf("\nKnown, but not part of this build:\n\n");
     for (int i = 0; i < verb_count; i++)
         if (!verbs[i].verb) printf("  %-9s %s: %s\n", verbs[i].name, verbs[i].help, verbs[i].refusal);
-    printf("\ngnathos VERB --help lists the options of a verb; gnathos help case, plan and landmarks\nlist what "
-           "goes "
-           "into the files.\n\nExit status: 0 done, 1 internal error, 2 usage, 3 an input file is wrong, 4 the "
-           "geometry is\nunusable, 5 no convergence, 6 the plan goes beyond a limit, 7 memory, time or disk, 130 "
-           "interrupted.\n");
+    printf(
+        "\ngnathos VERB --help lists the options of a verb; gnathos help case, plan and landmarks\nlist what "
+        "goes "
+        "into the files, gnathos help records what comes out.\n\nExit status: 0 done, 1 internal error, 2 usage, 3 an input file is wrong, 4 the "
+        "geometry is\nunusable, 5 no convergence, 6 the plan goes beyond a limit, 7 memory, time or disk, 130 "
+        "interrupted.\n");
 }
 
 static void print_landmarks(void)
@@ -49,41 +77,73 @@ static bool explain_verb(const verb_row *v, run_context *r, err *e)
     return true;
 }
 
-static bool explain(const char *topic, run_context *r, err *e)
+static bool no_help(const char *topic, const char *const *names, int count, const char *known, err *e)
 {
-    static const char *const topics[] = {"case", "plan", "landmarks"};
-    const char *names[64];
-    int count = 0;
-    for (int i = 0; i < 3; i++) names[count++] = topics[i];
-    for (int i = 0; i < verb_count && count < 64; i++) {
-        names[count++] = verbs[i].name;
-        if (!strcmp(verbs[i].name, topic)) return explain_verb(&verbs[i], r, e);
-    }
     int near = suggest_nearest(topic, names, count);
     if (near >= 0) return err_set(e, ERR_USAGE, "no help on \"%s\"; did you mean \"%s\"?", topic, names[near]);
-    return err_set(e, ERR_USAGE, "no help on \"%s\"; topics are case, plan, landmarks and the verbs", topic);
+    return err_set(e, ERR_USAGE, "no help on \"%s\"; %s", topic, known);
+}
+
+/* Fields or schema of a kind of records. */
+static bool explain_record(const char *kind, const help_options *in, err *e)
+{
+    const char *names[NAMES_MAX];
+    int count = 0;
+    const record_table *t = records_find(kind);
+    for (; records_nth(count) && count < NAMES_MAX; count++) names[count] = records_nth(count)->kind;
+    if (!t) return no_help(kind, names, count, "gnathos help records lists the kinds of records", e);
+    if (in->schema)
+        command_print_record(record_schema(t));
+    else
+        records_help(t);
+    return true;
+}
+
+static void print_case(void) { fields_help(case_fields()); }
+
+static void print_plan(void)
+{
+    fields_help(plan_fields());
+    printf("\n");
+    fields_help(plan_segment_fields());
 }
 
 static bool run(run_context *r, err *e)
 {
-    const char *topic = r->argument[0];
+    static const struct {
+        const char *name;
+        void (*print)(void);
+    } topics[] = {
+        {"case", print_case}, {"plan", print_plan}, {"landmarks", print_landmarks}, {"records", records_list}};
+    const char *topic = r->argument[0], *names[NAMES_MAX];
+    const help_options *in = r->own;
+    int count = 0;
     if (!topic) {
         print_overview();
-    } else if (!strcmp(topic, "case")) {
-        fields_help(case_fields());
-    } else if (!strcmp(topic, "plan")) {
-        fields_help(plan_fields());
-        printf("\n");
-        fields_help(plan_segment_fields());
-    } else if (!strcmp(topic, "landmarks")) {
-        print_landmarks();
-    } else {
-        return explain(topic, r, e);
+        return true;
     }
-    return true;
+    if (in->record || in->schema) return explain_record(topic, in, e);
+    for (size_t i = 0; i < sizeof topics / sizeof *topics; i++) {
+        names[count++] = topics[i].name;
+        if (strcmp(topics[i].name, topic)) continue;
+        topics[i].print();
+        return true;
+    }
+    for (int i = 0; i < verb_count && count < NAMES_MAX; i++) {
+        names[count++] = verbs[i].name;
+        if (!strcmp(verbs[i].name, topic)) return explain_verb(&verbs[i], r, e);
+    }
+    if (records_find(topic)) return explain_record(topic, in, e);
+    for (int i = 0; records_nth(i) && count < NAMES_MAX; i++) names[count++] = records_nth(i)->kind;
+    return no_help(topic, names, count, "topics are case, plan, landmarks, records, their kinds and the verbs", e);
 }
 
-const verb verb_help = {.arguments = "[VERB | case | plan | landmarks]",
-                        .about = "Explains a verb, or the fields of a case, of a plan, or the landmarks.",
+const verb verb_help = {.arguments = "[VERB | case | plan | landmarks | records | KIND]",
+                        .about =
+                            "Explains a verb, the fields of a case or of a plan, the landmarks, or the fields of the "
+                            "records that verbs write and print.",
+                        .options = options,
                         .argument_count = 1,
+                        .own_size = sizeof(help_options),
+                        .parse = parse,
                         .run = run};

@@ -1,6 +1,6 @@
 /* gnathos import: a case folder from surfaces, or from a label map and a CT. */
 #include "app/cli/verb.h"
-#include "app/planner/patient/import.h"
+#include "app/planner/patient/import_record.h"
 #include "geometry/write_whole.h"
 #include <math.h>
 #include <stdio.h>
@@ -129,43 +129,6 @@ static void print_plain(const import_result *r, const char *folder)
     if (r->has_points) printf("  %-12s %d points\n", "landmarks", r->points.count);
 }
 
-static json_t *part_json(const import_part *part)
-{
-    json_t *o = json_pack("{s:s, s:b, s:b, s:b, s:b, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:f, s:f}",
-                          "source", part->source, "from_labels", part->from_labels, "thresholded", part->thresholded,
-                          "tagged", part->read.tagged, "turned_from_ras", part->read.ras, "vertices",
-                          part->mesh.vertex_count, "triangles", part->mesh.triangle_count, "pieces", part->components,
-                          "holes", part->holes, "open_edges", part->open_edges, "crowded_edges", part->crowded_edges,
-                          "self_intersections", part->self_intersections, "welded_vertices", part->read.welded_vertices,
-                          "dropped_triangles", part->read.dropped_triangles, "split_polygons",
-                          part->read.split_polygons, "diagonal_mm", part->diagonal_mm, "area_mm2", part->area_mm2);
-    if (!part->open_edges) json_object_set_new(o, "volume_mm3", json_real(part->volume_mm3));
-    if (part->from_labels) {
-        json_object_set_new(o, "islands_dropped", json_integer(part->islands_dropped));
-        json_object_set_new(o, "pieces_dropped", json_integer(part->made.pieces_dropped));
-        json_object_set_new(o, "crowded_edges_parted", json_integer(part->made.crowded_edges));
-        json_object_set_new(o, "cavity_voxels", json_integer(part->cavity_voxels));
-        json_object_set_new(o, "sealed_voxels", json_integer(part->sealed_voxels));
-        json_object_set_new(o, "label_mm3", json_real(part->label_mm3));
-    }
-    return o;
-}
-
-static void print_json(const import_result *r, const char *folder, const issue_list *notes)
-{
-    json_t *surfaces = json_object(), *list = json_array();
-    for (int i = 0; i < CASE_SURFACE_COUNT; i++)
-        if (r->part[i].mesh.vertex_count)
-            json_object_set_new(surfaces, case_surface_name((case_surface)i), part_json(&r->part[i]));
-    for (int i = 0; i < notes->count; i++)
-        json_array_append_new(list, json_pack("{s:s, s:s}", "level", issue_level_name(notes->item[i].level), "text",
-                                              notes->item[i].text));
-    json_t *result = json_pack("{s:s, s:o, s:i, s:i, s:o}", "case", folder, "surfaces", surfaces, "landmarks",
-                               r->points.count, "landmarks_skipped", r->points_skipped, "issues", list);
-    if (r->contacts >= 0) json_object_set_new(result, "jaw_contact_voxels", json_integer(r->contacts));
-    command_print_json(result, "import");
-}
-
 static void defaults(void *own) { *(import_params *)own = import_params_default(); }
 
 static bool run(run_context *r, err *e)
@@ -180,7 +143,7 @@ static bool run(run_context *r, err *e)
     good = good && import_read(p, &r->watch, &result, &notes, e) && import_write(p, &result, r->out_path, e);
     command_print_issues(&r->common, &notes);
     if (good && r->common.json)
-        print_json(&result, r->out_path, &notes);
+        command_print_record(import_record_json(&result, r->out_path, &notes));
     else if (good && !r->common.quiet)
         print_plain(&result, r->out_path);
     issue_list_free(&notes);

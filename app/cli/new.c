@@ -1,4 +1,5 @@
 /* gnathos new CASE: a case of a synthetic head, from published norms. */
+#include "app/cli/new_record.h"
 #include "app/cli/verb.h"
 #include "app/planner/store/suggest.h"
 #include "cases/norm_head/norm_case.h"
@@ -115,11 +116,7 @@ static void list_measures(void)
 static void print_result(const run_context *r, const norm_head *h)
 {
     if (r->common.json) {
-        json_t *rows = json_object();
-        for (int i = 0; i < MEASURE_COUNT; i++)
-            json_object_set_new(rows, measures[i].name,
-                                json_pack("{s:f, s:f}", "asked", h->asked[i], "obtained", h->obtained[i]));
-        command_print_json(json_pack("{s:s, s:o}", "case", r->argument[0], "measures", rows), "new");
+        command_print_record(new_record_json(r->argument[0], h));
         return;
     }
     printf("%-20s %9s %9s\n", "measure", "asked", "obtained");

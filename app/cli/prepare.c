@@ -1,6 +1,7 @@
 /* gnathos prepare CASE: everything that does not depend on a plan, made and kept. */
 #include "app/cli/prepared_print.h"
 #include "app/cli/verb.h"
+#include "app/planner/patient/prepared_report.h"
 #include <stdio.h>
 
 static const struct argp_option options[] = {OPTION_CACHE, {0}};
@@ -10,9 +11,7 @@ static bool run(run_context *r, err *e)
     (void)e;
     const prepared *p = &r->prepared;
     if (r->common.json) {
-        command_print_json(
-            json_pack("{ss sb so}", "hash", p->hash, "reused", p->reused, "prepared", json_incref(p->report)),
-            "prepare");
+        command_print_record(prepared_record_json(p));
     } else {
         printf("%s: %s, %.16s\n", r->patient.name, p->reused ? "was prepared already" : "prepared", p->hash);
         prepared_print(p->report);

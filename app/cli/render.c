@@ -1,4 +1,5 @@
 /* gnathos render OUT: pictures of an outcome. */
+#include "app/cli/made_record.h"
 #include "app/cli/verb.h"
 #include "geometry/clock.h"
 #include "app/planner/predict/outcome_read.h"
@@ -207,9 +208,13 @@ static void print(const run_context *r, json_t *files, double load_s, double dra
     size_t i;
     json_t *file;
     if (r->common.json) {
-        command_print_json(json_pack("{sO s{sf sf sf}}", "files", files, "seconds", "load", load_s, "draw", draw_s,
-                                     "draw_cpu", draw_cpu_s),
-                           "render");
+        const made_record made = {.verb = "render",
+                                  .files = files,
+                                  .timed = true,
+                                  .load_s = load_s,
+                                  .draw_s = draw_s,
+                                  .draw_cpu_s = draw_cpu_s};
+        command_print_record(record_json(&made_record_table, &made));
         return;
     }
     if (!r->common.quiet) json_array_foreach(files, i, file) puts(json_string_value(file));

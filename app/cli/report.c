@@ -1,4 +1,5 @@
 /* gnathos report OUT: one page to open in a browser. */
+#include "app/cli/made_record.h"
 #include "app/cli/verb.h"
 #include "app/report/page.h"
 #include "app/report/scene.h"
@@ -93,7 +94,13 @@ static bool run(run_context *r, err *e)
     size_t bytes;
     snprintf(path, sizeof path, "%s%s", r->out_path ? r->out_path : r->argument[0], r->out_path ? "" : "/report.html");
     if (!make(r, path, &bytes, e)) return false;
-    if (!r->common.quiet) printf("%s: %.1f MB\n", path, (double)bytes / 1e6);
+    if (r->common.json) {
+        json_t *files = json_pack("[s]", path);
+        const made_record made = {.verb = "report", .files = files, .bytes = (int64_t)bytes};
+        command_print_record(record_json(&made_record_table, &made));
+        json_decref(files);
+    } else if (!r->common.quiet)
+        printf("%s: %.1f MB\n", path, (double)bytes / 1e6);
     return true;
 }
 

@@ -1,60 +1,79 @@
 #include "app/planner/patient/prepared_report.h"
+#include "app/planner/patient/cut_record.h"
 
-json_t *repair_report_json(const repair_report *r)
-{
-    return json_pack("{si si si si sf si sf si si sb sf si}", "welded_vertices", r->welded_vertices,
-                     "degenerate_triangles", r->degenerate_triangles, "components_found", r->components_found,
-                     "components_dropped", r->components_dropped, "dropped_area_mm2", r->dropped_area_mm2,
-                     "holes_filled", r->holes_filled, "widest_hole_mm", r->widest_hole_mm, "self_intersections_found",
-                     r->self_intersections_found, "self_intersections_left", r->self_intersections_left, "wrapped",
-                     r->wrapped, "max_deviation_mm", r->max_deviation_mm, "vertices_moved", r->vertices_moved);
-}
+static const record_row mesh_row[] = {
+    ROW(tissue_report, nodes, "nodes", NULL, "nodes of the tissue"),
+    ROW(tissue_report, tets, "tets", NULL, "its tetrahedra"),
+    ROW(tissue_report, quality.volume_mm3, "volume_mm3", "mm3", "its volume"),
+    ROW(tissue_report, quality.min_volume_mm3, "min_volume_mm3", "mm3", "volume of the smallest tetrahedron"),
+    ROW(tissue_report, quality.min_dihedral_deg, "min_dihedral_deg", "degrees", "smallest angle between two faces"),
+    ROW(tissue_report, quality.max_dihedral_deg, "max_dihedral_deg", "degrees", "largest angle between two faces"),
+    ROW(tissue_report, quality.min_radius_ratio, "min_radius_ratio", NULL,
+        "three times the inner over the outer radius, of the flattest tetrahedron: 1 is regular, 0 flat"),
+    ROW(tissue_report, quality.mean_radius_ratio, "mean_radius_ratio", NULL, "mean of that"),
+    ROW(tissue_report, quality.min_edge_mm, "min_edge_mm", "mm", "shortest edge"),
+    ROW(tissue_report, quality.mean_edge_mm, "mean_edge_mm", "mm", "mean edge"),
+};
+static const record_table mesh_table = {.title = "Mesh of the tissue", RECORD_ROWS(mesh_row)};
 
-json_t *cuts_report(const cut_report *r)
-{
-    json_t *balance = json_array(), *clearance = json_array(), *volume = json_object(), *warning = json_array(),
-           *fragment = json_array();
-    for (int i = 0; i < r->balance_count; i++) {
-        const cut_balance *b = &r->balance[i];
-        json_array_append_new(balance, json_pack("{ss sf sf sf sf sf}", "cut", b->name, "before_mm3", b->before_mm3,
-                                                 "piece_mm3", b->piece_mm3, "rest_mm3", b->rest_mm3, "kerf_mm3",
-                                                 b->kerf_mm3, "error_share", b->error_share));
-    }
-    for (int i = 0; i < r->clearance_count; i++) {
-        const cut_clearance *k = &r->clearance[i];
-        json_array_append_new(clearance, json_pack("{ss sf sf sb sb}", "what", k->name, "value_mm", k->value_mm,
-                                                   "limit_mm", k->limit_mm, "ok", k->ok, "estimated", k->estimated));
-    }
-    for (int i = 0; i < r->fragment_count; i++) {
-        const cut_fragment *f = &r->fragment[i];
-        json_array_append_new(fragment,
-                              json_pack("{ss ss sf sf}", "from", segment_name(f->from), "to", segment_name(f->to),
-                                        "volume_mm3", f->volume_mm3, "gap_mm", f->gap_mm));
-    }
-    for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (r->volume_mm3[s] > 0) json_object_set_new(volume, segment_name((segment_id)s), json_real(r->volume_mm3[s]));
-    for (int i = 0; i < r->warning_count; i++) json_array_append_new(warning, json_string(r->warning[i]));
-    return json_pack("{so sf so so so so}", "segment_mm3", volume, "kerf_mm3", r->kerf_mm3, "balance", balance,
-                     "clearance", clearance, "fragments", fragment, "warnings", warning);
-}
+static const record_row attach_row[] = {
+    ROW(tissue_report, tied_nodes, "tied", NULL, "nodes that move with a bone"),
+    ROW(tissue_report, sliding_nodes, "sliding", NULL, "nodes that slide on bone or teeth"),
+    ROW(tissue_report, loose_nodes, "loose_near_cuts", NULL, "nodes on bone that hang on nothing, along cuts"),
+    ROW(tissue_report, fixed_nodes, "fixed_at_far_faces", NULL, "nodes held where the tissue ends"),
+    ROW(tissue_report, hole_nodes, "over_holes", NULL, "nodes where the wrap spans a hole of the bone"),
+    ROW(tissue_report, skin_nodes, "skin", NULL, "nodes of the skin"),
+    ROW(tissue_report, lip_pairs, "lip_pairs", NULL, "pairs of nodes of upper and lower lip"),
+    ROW(tissue_report, not_snapped, "not_moved_onto_bone", NULL, "nodes near bone that could not be moved onto it"),
+    ROW(tissue_report, max_bone_gap_mm, "max_bone_gap_mm", "mm", "farthest that a tied node is from its bone"),
+};
+static const record_table attach_table = {.title = "What holds the tissue", RECORD_ROWS(attach_row)};
+
+typedef struct prepared_numbers {
+    const tissue_report *tissue;
+    const repair_report *skin, *skull, *mandible;
+    const cut_report *cuts;
+    double gap_mean_mm, gap_max_mm, bones_s, tissue_s;
+    const char *left_out;
+} prepared_numbers;
+
+static const record_row report_row[] = {
+    ROW_BEHIND(prepared_numbers, skin, &repair_table, "repair.skin", "what was repaired in the skin"),
+    ROW_BEHIND(prepared_numbers, skull, &repair_table, "repair.skull", "what was repaired in the skull"),
+    ROW_BEHIND(prepared_numbers, mandible, &repair_table, "repair.mandible", "what was repaired in the mandible"),
+    ROW_BEHIND(prepared_numbers, cuts, &cuts_table, "cuts", "what the cuts made"),
+    ROW_BEHIND(prepared_numbers, tissue, &mesh_table, "mesh", "the mesh of the tissue"),
+    ROW_BEHIND(prepared_numbers, tissue, &attach_table, "attachment", "what its nodes hang on"),
+    ROW(prepared_numbers, gap_mean_mm, "skin_gap_mean_mm", "mm", "mean distance of the skin from its tetrahedra"),
+    ROW(prepared_numbers, gap_max_mm, "skin_gap_max_mm", "mm", "largest distance of the skin from them"),
+    ROW(prepared_numbers, left_out, "left_out", NULL, "what is not meshed"),
+    ROW(prepared_numbers, bones_s, "seconds.bones", "s", "wall time of repair and cuts"),
+    ROW(prepared_numbers, tissue_s, "seconds.tissue", "s", "wall time of the mesh"),
+};
+const record_table prepared_report_table = {.title = "Preparation of a case", RECORD_ROWS(report_row)};
 
 json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s, double tissue_s)
 {
-    const tetmesh_quality *q = &r->quality;
-    json_t *mesh =
-        json_pack("{si si sf sf sf sf sf sf sf sf}", "nodes", r->nodes, "tets", r->tets, "volume_mm3", q->volume_mm3,
-                  "min_volume_mm3", q->min_volume_mm3, "min_dihedral_deg", q->min_dihedral_deg, "max_dihedral_deg",
-                  q->max_dihedral_deg, "min_radius_ratio", q->min_radius_ratio, "mean_radius_ratio",
-                  q->mean_radius_ratio, "min_edge_mm", q->min_edge_mm, "mean_edge_mm", q->mean_edge_mm);
-    json_t *attach = json_pack("{si si si si si si si si sf}", "tied", r->tied_nodes, "sliding", r->sliding_nodes,
-                               "loose_near_cuts", r->loose_nodes, "fixed_at_far_faces", r->fixed_nodes, "over_holes",
-                               r->hole_nodes, "skin", r->skin_nodes, "lip_pairs", r->lip_pairs, "not_moved_onto_bone",
-                               r->not_snapped, "max_bone_gap_mm", r->max_bone_gap_mm);
-    json_t *out =
-        json_pack("{s{so so so} so so so sf sf ss s{sf sf}}", "repair", "skin", repair_report_json(&a->skin_repair),
-                  "skull", repair_report_json(&a->skull_repair), "mandible", repair_report_json(&a->mandible_repair),
-                  "cuts", cuts_report(&a->cuts), "mesh", mesh, "attachment", attach, "skin_gap_mean_mm",
-                  r->skin_gap_mean_mm, "skin_gap_max_mm", r->skin_gap_max_mm, "left_out", r->left_out, "seconds",
-                  "bones", bones_s, "tissue", tissue_s);
-    return out;
+    const prepared_numbers n = {.tissue = r,
+                                .skin = &a->skin_repair,
+                                .skull = &a->skull_repair,
+                                .mandible = &a->mandible_repair,
+                                .cuts = &a->cuts,
+                                .gap_mean_mm = r->skin_gap_mean_mm,
+                                .gap_max_mm = r->skin_gap_max_mm,
+                                .bones_s = bones_s,
+                                .tissue_s = tissue_s,
+                                .left_out = r->left_out};
+    return record_part(&prepared_report_table, &n);
 }
+
+static const record_row record_rows[] = {
+    ROW(prepared, hash, "hash", NULL, "of everything that it was made from"),
+    ROW(prepared, reused, "reused", NULL, "it was made earlier and taken from disk"),
+    {RECORD_AT(prepared, report), .name = "prepared", .table = &prepared_report_table,
+     .help = "repair, cuts and mesh in numbers"},
+};
+const record_table prepared_record_table = {
+    .kind = "prepared", .title = "Record of gnathos prepare", RECORD_ROWS(record_rows)};
+
+json_t *prepared_record_json(const prepared *p) { return record_json(&prepared_record_table, p); }

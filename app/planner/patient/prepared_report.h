@@ -1,11 +1,11 @@
 /* prepared_report: repair, cuts and tissue mesh of a case in numbers. */
 #pragma once
-#include "app/planner/patient/anatomy.h"
-#include "geometry/tissue.h"
-#include "geometry/json_file.h"
+#include "app/planner/patient/prepared.h"
+#include "app/planner/store/record.h"
 
+extern const record_table prepared_report_table; /* of what prepared_report writes */
 /* A new object. */
 json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s, double tissue_s);
-/* The parts that one repair and that the cuts give. */
-json_t *repair_report_json(const repair_report *r);
-json_t *cuts_report(const cut_report *r);
+
+extern const record_table prepared_record_table; /* kind "prepared": what gnathos prepare prints */
+json_t *prepared_record_json(const prepared *p);

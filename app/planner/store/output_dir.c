@@ -16,11 +16,21 @@ static bool has(const char *folder, const char *name)
     return there;
 }
 
+/* An earlier output of gnathos stands there: one of its records does. */
+static bool is_ours(const char *folder)
+{
+    static const char *const records[] = {"outcome.json",    "audit.json",  "comparison.json",
+                                          "cut_report.json", "stress.json", "manifest.json"};
+    for (size_t i = 0; i < sizeof records / sizeof *records; i++)
+        if (has(folder, records[i])) return true;
+    return false;
+}
+
 bool output_dir_open(const char *target, bool force, output_dir *out, err *e)
 {
     struct stat info;
     bool folder = !stat(target, &info) && S_ISDIR(info.st_mode);
-    bool earlier = folder && (has(target, "outcome.json") || has(target, "manifest.json") || has(target, "audit.json"));
+    bool earlier = folder && is_ours(target);
     output_dir d = {.replaces = earlier && force};
     if (earlier && !force) return err_at(e, ERR_INPUT, target, 0, NULL, "holds earlier results; --force replaces them");
     if (!d.replaces) {

@@ -8,7 +8,7 @@ typedef struct output_dir {
 } output_dir;
 
 /* Refuses (ERR_INPUT) a target that is in use: something that gnathos did not write (a folder without
- * outcome.json, manifest.json or audit.json) always, an earlier output unless `force`. Refuses (ERR_RESOURCE) a folder
+ * one of its records) always, an earlier output unless `force`. Refuses (ERR_RESOURCE) a folder
  * that cannot be written. */
 bool output_dir_open(const char *target, bool force, output_dir *out, err *e) MUST_CHECK;
 /* After refusal the earlier output, if any, is as it was. */

@@ -77,13 +77,24 @@ static json_t *value_at(const record_row *r, record_kind kind, const void *at)
     return NULL;
 }
 
+/* The item after those before *i. */
+static const void *item(const record_row *r, const void *of, int *i, const char **key, void *space)
+{
+    int count;
+    const void *first = (const char *)of + r->offset;
+    if (r->next) return r->next(of, i, key, space);
+    memcpy(&count, (const char *)of + r->count_at, sizeof count);
+    if (r->pointer) memcpy(&first, first, sizeof first);
+    return *i < count ? (const char *)first + (size_t)*i * r->stride : NULL;
+}
+
 static json_t *items(const record_row *r, const void *of)
 {
     _Alignas(max_align_t) char space[RECORD_SPACE];
     json_t *all = r->kind == RECORD_LIST ? json_array() : json_object();
     const char *key = NULL;
     int i = 0;
-    for (const void *one; (one = r->next(of, &i, &key, space)) != NULL; i++) {
+    for (const void *one; (one = item(r, of, &i, &key, space)) != NULL; i++) {
         json_t *v = value_at(r, r->item, one);
         if (!v) v = json_null();
         if (r->kind == RECORD_LIST)
@@ -111,8 +122,7 @@ static json_t *value_of(const record_row *r, const void *of)
     const void *at = (const char *)of + r->offset;
     if (r->number) return found_number(r, r->number(of));
     if (r->text) return text(r, r->text(of, space));
-    if (r->next) return items(r, of);
-    if (r->at) at = r->at(of, space);
+    if (r->kind == RECORD_LIST || r->kind == RECORD_MAP) return items(r, of);
     if (r->pointer) memcpy(&at, at, sizeof at);
     return at ? value_at(r, r->kind, at) : NULL;
 }

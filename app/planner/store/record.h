@@ -21,8 +21,8 @@ typedef enum record_kind {
     RECORD_WORD,    /* an enum or int: number of the word in `words` */
     RECORD_NUMBERS, /* double[length] */
     RECORD_OBJECT,  /* a struct with `table` */
-    RECORD_LIST,    /* of items, found by `next` */
-    RECORD_MAP,     /* the same, each with a name */
+    RECORD_LIST,    /* of items: `next` finds them, or an array has them */
+    RECORD_MAP,     /* of items that `next` finds, each with a name */
     RECORD_JSON     /* json_t *: written by `table` earlier */
 } record_kind;
 
@@ -35,6 +35,7 @@ typedef struct record_row {
     int length;                   /* of RECORD_NUMBERS */
     bool pointer;                 /* the offset holds a pointer to the value; NULL: there is none */
     record_kind item;             /* of RECORD_LIST and RECORD_MAP; texts are RECORD_CHARS */
+    size_t count_at, stride;      /* of an array: offset of its length, an int; size of an item */
     const char *key;              /* of RECORD_MAP: what the names are, for the help */
     const char *unit;             /* NULL: none */
     const char *words;            /* "fine|caution|stop" */
@@ -46,7 +47,6 @@ typedef struct record_row {
     /* At most one, instead of the offset. `space` is RECORD_SPACE bytes in which the answer may be built. */
     double (*number)(const void *of);                 /* NaN: no value */
     const char *(*text)(const void *of, char *space); /* NULL: no value */
-    const void *(*at)(const void *of, void *space);   /* of RECORD_OBJECT and RECORD_NUMBERS; NULL: no value */
     /* Of RECORD_LIST and RECORD_MAP: the item at *i, which begins at 0 and goes up by one each time, or at the next *i
      * that has one; NULL: no more. key is set for a map. */
     const void *(*next)(const void *of, int *i, const char **key, void *space);
@@ -76,7 +76,7 @@ struct record_table {
         double(*)[16]: RECORD_NUMBERS,                                                                                 \
         default: RECORD_CHARS),                                                                                        \
     .offset = offsetof(type, member), .length = (int)(sizeof(((type *)0)->member) / sizeof(double))
-/* Rows for the plain cases; the others are written out. */
+/* Rows for the usual cases; the others are written out. */
 #define ROW(type, member, name_, unit_, help_)                                                                         \
     {                                                                                                                  \
         RECORD_AT(type, member), .name = name_, .unit = unit_, .help = help_                                           \
@@ -85,9 +85,50 @@ struct record_table {
     {                                                                                                                  \
         RECORD_AT(type, member), .name = name_, .unit = unit_, .help = help_, .when = when_                            \
     }
+#define ROW_OPTIONAL(type, member, name_, unit_, help_)                                                                \
+    {                                                                                                                  \
+        RECORD_AT(type, member), .name = name_, .unit = unit_, .help = help_, .optional = true                         \
+    }
+#define ROW_WORD(type, member, name_, words_, help_)                                                                   \
+    {                                                                                                                  \
+        RECORD_AT(type, member), .name = name_, .words = words_, .help = help_                                         \
+    }
 #define ROW_FOUND(kind_, function, name_, unit_, help_)                                                                \
     {                                                                                                                  \
         .kind = RECORD_##kind_, .number = function, .name = name_, .unit = unit_, .help = help_                        \
+    }
+#define ROW_TEXT(function, name_, help_)                                                                               \
+    {                                                                                                                  \
+        .kind = RECORD_TEXT, .text = function, .name = name_, .help = help_                                            \
+    }
+/* A struct in the struct, and one to which a pointer in it points. */
+#define ROW_OBJECT(type, member, table_, name_, help_)                                                                 \
+    {                                                                                                                  \
+        .kind = RECORD_OBJECT, .offset = offsetof(type, member), .table = table_, .name = name_, .help = help_         \
+    }
+#define ROW_BEHIND(type, member, table_, name_, help_)                                                                 \
+    {                                                                                                                  \
+        .kind = RECORD_OBJECT, .offset = offsetof(type, member), .pointer = true, .table = table_, .name = name_,      \
+        .help = help_                                                                                                  \
+    }
+#define ROW_LIST(next_, table_, name_, help_)                                                                          \
+    {                                                                                                                  \
+        .kind = RECORD_LIST, .next = next_, .item = RECORD_OBJECT, .table = table_, .name = name_, .help = help_       \
+    }
+#define ROW_TEXTS(next_, name_, help_)                                                                                 \
+    {                                                                                                                  \
+        .kind = RECORD_LIST, .next = next_, .item = RECORD_CHARS, .name = name_, .help = help_                         \
+    }
+#define ROW_MAP(next_, key_, item_, table_, name_, unit_, help_)                                                       \
+    {                                                                                                                  \
+        .kind = RECORD_MAP, .next = next_, .key = key_, .item = RECORD_##item_, .table = table_, .name = name_,        \
+        .unit = unit_, .help = help_                                                                                   \
+    }
+/* A list of the structs of an array, to which `member` points; its length is in `length_`. */
+#define ROW_ARRAY(type, member, length_, table_, name_, help_)                                                         \
+    {                                                                                                                  \
+        .kind = RECORD_LIST, .offset = offsetof(type, member), .pointer = true, .count_at = offsetof(type, length_),   \
+        .stride = sizeof *((type *)0)->member, .item = RECORD_OBJECT, .table = table_, .name = name_, .help = help_    \
     }
 
 /* The record of a struct as a new object. Asserts that a field without a value may have none, and that texts of
