@@ -4,7 +4,7 @@
  * months (PMC6173856); thickness: Veltkamp and others 2002 (AJODO), mean and deviation of 62 patients. An
  * open window asks for the sign alone. */
 #include "app/study/measures.h"
-#include "app/planner/plan/controls.h"
+#include "app/planner/plan/plan_moves.h"
 #include "geometry/cephalometry.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
@@ -121,19 +121,15 @@ _Static_assert(sizeof study_measures / sizeof *study_measures == STUDY_MEASURES,
 bool study_move_motion(const standard_move *m, const prepared *p, rigid motion[SEGMENT_COUNT], err *e)
 {
     rig_controls c = rig_controls_default();
-    const landmark *left = landmarks_find(&p->points, "Co_L"), *right = landmarks_find(&p->points, "Co_R");
-    double condyle[2][3] = {{0}};
+    double condyle[2][3];
+    bool hinged = plan_moves_condyles(&p->points, condyle);
     for (size_t i = 0; i < sizeof m->control / sizeof *m->control && m->control[i].name; i++) {
         control x;
         bool known = control_named(m->control[i].name, &x);
         assert(known);
         control_apply(&x, m->control[i].value, &p->frame, &c);
     }
-    if (left && right) {
-        vec_copy(left->xyz, condyle[0]);
-        vec_copy(right->xyz, condyle[1]);
-    }
-    return rig_motion(&c, &p->frame, left && right ? (const double(*)[3])condyle : NULL, motion, e);
+    return rig_motion(&c, &p->frame, hinged ? (const double(*)[3])condyle : NULL, motion, e);
 }
 
 void study_add_lips(prepared *p)

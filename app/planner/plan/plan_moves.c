@@ -20,6 +20,15 @@ const landmark *plan_moves_reference(const landmarks *l, segment_id s)
     return NULL;
 }
 
+bool plan_moves_condyles(const landmarks *l, double condyle[2][3])
+{
+    const landmark *left = landmarks_find(l, "Co_L"), *right = landmarks_find(l, "Co_R");
+    if (!left || !right) return false;
+    vec_copy(left->xyz, condyle[0]);
+    vec_copy(right->xyz, condyle[1]);
+    return true;
+}
+
 static bool is_named(const plan_segment *s) { return s->short_form || s->move.kind != MOVE_NONE; }
 
 /* The segment's own move, in its long form; false after an issue. */
@@ -104,7 +113,9 @@ bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, 
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
     for (int i = 0; i < CONTROL_COUNT; i++)
         if (p->value[i] != 0) control_apply(&controls[i], p->value[i], &f, &q);
-    if (!rig_motion(&q, &f, NULL, m.move, &e)) {
+    double condyle[2][3];
+    bool hinged = plan_moves_condyles(l, condyle);
+    if (!rig_motion(&q, &f, hinged ? (const double(*)[3])condyle : NULL, m.move, &e)) {
         issue_add(issues, ISSUE_ERROR, e.code, p->path, 0, NULL, "%s", e.text);
         return false;
     }

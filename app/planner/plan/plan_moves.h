@@ -21,6 +21,8 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
 /* Where the move of a segment is measured, and about what it turns where a plan names no pivot: upper incisor, lower
  * incisor, pogonion, condylion, or a neighbour of theirs; NULL if the case has none. */
 const landmark *plan_moves_reference(const landmarks *l, segment_id s);
+/* Left and right condyle; false if the case has not both. */
+bool plan_moves_condyles(const landmarks *l, double condyle[2][3]) MUST_CHECK;
 /* Case, landmarks and plan in one call, for verbs that need no more than the first error. */
 bool plan_moves_load(const char *plan_path, const case_file *c, const landmarks *l, plan_file *plan, plan_moves *out,
                      err *e) MUST_CHECK;
