@@ -86,47 +86,64 @@ static int add_solved(const audit *a, const feasible_map *m, chart_mark *mark)
     return count;
 }
 
-static bool draw(const audit *a, int request, const char *path, err *e)
+static chart_axis axis_of(const audit *a, const feasible_map *m, int k, char title[TEXT])
 {
-    const feasible_map *m = &a->map[request];
-    struct kinds *kinds = NEW_ARRAY(struct kinds, 1);
-    int32_t *kind = NEW_ARRAY(int32_t, m->node_count);
-    double *crossing[2];
-    make_kinds(m, kinds, kind);
+    int c = m->params.axis[k];
+    return (chart_axis){.title = title_of(&a->settings.control[c], title),
+                        .low = audit_value(a, c, m->params.low[k]),
+                        .step = a->settings.spacing,
+                        .count = m->count[k]};
+}
+
+/* What holds whatever these controls do. */
+static void throughout_words(const audit *a, char *text, size_t size)
+{
+    *text = 0;
+    for (int l = 0; l < LIMIT_COUNT; l++) {
+        size_t n = strlen(text);
+        if (a->throughout[l] > LIMIT_FINE)
+            snprintf(text + n, size - n, "%s%s (%s)", n ? "; " : "Throughout, so not drawn: ", limit_default[l].what,
+                     limit_level_name(a->throughout[l]));
+    }
+}
+
+/* The solved points, where nothing is moved, and the plan. Returns their number. */
+static int make_marks(const audit *a, const feasible_map *m, chart_mark *mark, char base[TEXT])
+{
+    int count = add_solved(a, m, mark);
+    mark[count++] = (chart_mark){0, 0, CHART_CROSS, "nothing moved"};
+    if (!*a->base.path) return count;
+    snprintf(base, TEXT, "the plan: %.120s", a->base.name);
+    mark[count++] =
+        (chart_mark){audit_value(a, m->params.axis[0], 0), audit_value(a, m->params.axis[1], 0), CHART_RING, base};
+    return count;
+}
+
+/* Fills what the map says: kinds and where they meet. The caller frees kind and both crossings. */
+static void make_content(const feasible_map *m, struct kinds *kinds, int32_t **kind, double *crossing[2])
+{
+    *kind = NEW_ARRAY(int32_t, m->node_count);
+    make_kinds(m, kinds, *kind);
     for (int k = 0; k < 2; k++) {
         crossing[k] = NEW_ARRAY(double, m->node_count);
         for (int64_t i = 0; i < m->node_count; i++) crossing[k][i] = m->edge[k][i] / m->params.spacing;
     }
-    char titles[2][TEXT], subtitle[2 * TEXT], base[TEXT], others[2 * TEXT] = "";
-    const control *x[2];
-    chart_axis axis[2];
-    for (int k = 0; k < 2; k++) {
-        int c = m->params.axis[k];
-        x[k] = &a->settings.control[c];
-        axis[k] = (chart_axis){.title = title_of(x[k], titles[k]),
-                               .low = audit_value(a, c, m->params.low[k]),
-                               .step = a->settings.spacing,
-                               .count = m->count[k]};
-    }
-    char always[1024] = "";
-    for (int l = 0; l < LIMIT_COUNT; l++)
-        if (a->throughout[l] > LIMIT_FINE) {
-            size_t n = strlen(always);
-            snprintf(always + n, sizeof always - n, "%s%s (%s)",
-                     n ? "; " : "Throughout, so not drawn: ", limit_default[l].what,
-                     limit_level_name(a->throughout[l]));
-        }
-    bool planned = *a->base.path;
-    snprintf(subtitle, sizeof subtitle, "%s, %.12s; other controls %s", a->patient->name, a->prepared->hash,
-             planned ? "as in the plan" : "unmoved");
+}
+
+static bool draw(const audit *a, int request, const char *path, err *e)
+{
+    const feasible_map *m = &a->map[request];
+    const control *x = a->settings.control;
+    char titles[2][TEXT], subtitle[2 * TEXT], base[TEXT], others[2 * TEXT], always[1024];
+    struct kinds *kinds = NEW_ARRAY(struct kinds, 1);
+    int32_t *kind;
+    double *crossing[2];
     chart_mark *mark = NEW_ARRAY(chart_mark, 2 + a->tissue.count);
-    int marks = add_solved(a, m, mark);
-    mark[marks++] = (chart_mark){0, 0, CHART_CROSS, "nothing moved"};
-    if (planned) {
-        snprintf(base, sizeof base, "the plan: %.120s", a->base.name);
-        mark[marks++] =
-            (chart_mark){audit_value(a, m->params.axis[0], 0), audit_value(a, m->params.axis[1], 0), CHART_RING, base};
-    }
+    int marks = make_marks(a, m, mark, base);
+    make_content(m, kinds, &kind, crossing);
+    throughout_words(a, always, sizeof always);
+    snprintf(subtitle, sizeof subtitle, "%s, %.12s; other controls %s", a->patient->name, a->prepared->hash,
+             *a->base.path ? "as in the plan" : "unmoved");
     snprintf(others, sizeof others,
              "Heavy line: where a limit stops, found to %.3g; light line: where caution begins. Colours name the limit "
              "that decides. Points are judged every %g, %g apart where nothing changes.",
@@ -134,8 +151,8 @@ static bool draw(const audit *a, int request, const char *path, err *e)
     const char *notes[] = {others, always};
     chart c = {.title = "What is feasible, and what stops it",
                .subtitle = subtitle,
-               .x = axis[0],
-               .y = axis[1],
+               .x = axis_of(a, m, 0, titles[0]),
+               .y = axis_of(a, m, 1, titles[1]),
                .kind = kind,
                .crossing = {crossing[0], crossing[1]},
                .veiled = m->behind_count ? m->behind : NULL,
@@ -148,7 +165,8 @@ static bool draw(const audit *a, int request, const char *path, err *e)
                .note_count = *always ? 2 : 1};
     image im = {0};
     const png_note note[] = {{"case", a->prepared->hash}};
-    bool ok = chart_draw(&c, WIDTH, !strcmp(x[0]->unit, x[1]->unit), &im, e) && png_file_write(&im, note, 1, path, e);
+    bool same_unit = !strcmp(x[m->params.axis[0]].unit, x[m->params.axis[1]].unit);
+    bool ok = chart_draw(&c, WIDTH, same_unit, &im, e) && png_file_write(&im, note, 1, path, e);
     image_free(&im);
     for (int k = 0; k < 2; k++) free(crossing[k]);
     free(mark);
