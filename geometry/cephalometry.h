@@ -25,7 +25,7 @@ typedef struct ceph_measure {
     const char *points; /* needed, space-separated; "Go" a midpoint, "Ar|Co": Co where Ar is missing, and said */
     ceph_norm men, women;
     const char *source; /* of the norm; NULL where there is none */
-    int rule;           /* how the points are combined; see cephalometry.c */
+    int rule;           /* how the points are combined; see src/face/ceph_rules.h */
 } ceph_measure;
 
 extern const ceph_measure ceph_measures[];

@@ -16,6 +16,8 @@ typedef struct chin {
     outline lower[2];     /* lower border, left and right */
     double apex_mm;       /* clearance to root tips; reduced where the chin would be too thin for a plate */
     double y0, z0, slope; /* the plane: z = z0 + slope (y - y0) */
+    double me[3], l6[2][3];
+    double from, to; /* y between which the plane may leave the border */
 } chin;
 
 static double plane_z(const chin *c, double y) { return c->z0 + c->slope * (y - c->y0); }
@@ -88,7 +90,7 @@ static double mean_exit(chin *c, const guard_point *g, int count, double from, d
 {
     settle(c, g, count);
     double left = exit_y(c, 1, from, to), right = exit_y(c, -1, from, to);
-    return fmin((left + right) / 2, 1e6);
+    return (left + right) / 2;
 }
 
 static void place(chin *c, const guard_point *g, int count, double first, double last, double from, double to)
@@ -108,42 +110,46 @@ static void place(chin *c, const guard_point *g, int count, double first, double
     mean_exit(c, g, count, from, to);
 }
 
-static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin *c, cut_bodies *out, cut_report *r,
-                      err *e)
+static void locate(chin *c, const osteotomy_input *in)
 {
-    double me[3], l6[2][3], go[2][3], mf[3];
-    landmark_local(in->points, "Me", &c->frame, me);
-    landmark_local(in->points, "L6_L", &c->frame, l6[0]);
-    landmark_local(in->points, "L6_R", &c->frame, l6[1]);
+    double go[2][3], mf[3];
+    landmark_local(in->points, "Me", &c->frame, c->me);
+    landmark_local(in->points, "L6_L", &c->frame, c->l6[0]);
+    landmark_local(in->points, "L6_R", &c->frame, c->l6[1]);
     landmark_local(in->points, "Go_L", &c->frame, go[0]);
     landmark_local(in->points, "Go_R", &c->frame, go[1]);
     landmark_local(in->points, "MF_L", &c->frame, mf);
-    guard_point list[8];
-    int count = guards(in, p, &c->frame, list, r);
     c->y0 = mf[1];
-    double first = (l6[0][1] + l6[1][1]) / 2, last = first + behind_l6_mm, from = c->y0 + 2,
-           to = fmin(go[0][1], go[1][1]) - 5;
+    c->from = c->y0 + 2;
+    c->to = fmin(go[0][1], go[1][1]) - 5;
+}
+
+/* The plane, as far from the root tips as leaves a chin that can hold a plate. */
+static void choose_plane(chin *c, const osteotomy_params *p, const guard_point *list, int count, cut_report *r)
+{
+    double first = (c->l6[0][1] + c->l6[1][1]) / 2, last = first + behind_l6_mm;
     for (c->apex_mm = p->apex_clearance_mm;; c->apex_mm = fmax(c->apex_mm - step_mm, least_apex_mm)) {
-        place(c, list, count, first, last, from, to);
-        if (plane_z(c, me[1]) - me[2] >= least_height_mm || c->apex_mm <= least_apex_mm) break;
+        place(c, list, count, first, last, c->from, c->to);
+        if (plane_z(c, c->me[1]) - c->me[2] >= least_height_mm || c->apex_mm <= least_apex_mm) break;
     }
     if (c->apex_mm < p->apex_clearance_mm)
         report_warning(r,
                        "the chin is low: the cut comes within %.1f mm of the root tips, so that %.1f mm of "
                        "chin are left to "
                        "hold a plate",
-                       c->apex_mm, plane_z(c, me[1]) - me[2]);
+                       c->apex_mm, plane_z(c, c->me[1]) - c->me[2]);
     if (fabs(c->slope) > 1e-6)
         report_warning(r,
                        "the chin cut is tilted by %.1f degrees against the lower occlusal plane, to leave the lower "
                        "border beside the molars",
                        atan(c->slope) * 180 / acos(-1));
-    double left = exit_y(c, 1, from, to), right = exit_y(c, -1, from, to), end = fmax(left, right);
-    if (!(end < to))
-        return err_set(e, ERR_GEOMETRY, "the chin cut does not leave the lower border in front of the angles");
-    /* Where the plane is furthest below the bone the body can end without cutting. */
+}
+
+/* Where the plane, behind its exit at `end`, is furthest below the bone, the body can end without cutting. */
+static double rear_wall(const chin *c, double end)
+{
     double wall = end, best = -HUGE_VAL;
-    for (double y = end; y <= end + margin_mm && y <= to; y += 0.5) {
+    for (double y = end; y <= end + margin_mm && y <= c->to; y += 0.5) {
         double gap = fmin(border_height(c, 1, y), border_height(c, -1, y)) - plane_z(c, y);
         if (gap < 0) break;
         if (gap > best) {
@@ -151,14 +157,19 @@ static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin
             wall = y;
         }
     }
+    return wall;
+}
+
+static cutter body_below(const chin *c, double wall)
+{
     double low[3], high[3], xyz[3 * 2 * 4];
     for (int k = 0; k < 3; k++) {
         low[k] = HUGE_VAL;
         high[k] = -HUGE_VAL;
     }
-    for (int32_t v = 0; v < in->mandible->vertex_count; v++) {
+    for (int32_t v = 0; v < c->mandible->vertex_count; v++) {
         double q[3];
-        head_frame_to_local(&c->frame, in->mandible->xyz + 3 * (size_t)v, q);
+        head_frame_to_local(&c->frame, c->mandible->xyz + 3 * (size_t)v, q);
         for (int k = 0; k < 3; k++) {
             low[k] = fmin(low[k], q[k]);
             high[k] = fmax(high[k], q[k]);
@@ -171,17 +182,37 @@ static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin
             {x, front, plane_z(c, front)}, {x, wall, plane_z(c, wall)}, {x, wall, bottom}, {x, front, bottom}};
         for (int k = 0; k < 4; k++) head_frame_to_world(&c->frame, corner[k], xyz + 3 * (4 * side + k));
     }
-    cutter body = cutter_stack(2, 4, xyz, (const uint8_t[4]){1, 0, 0, 0}, false, false);
-    double tilt = sqrt(1 + c->slope * c->slope), point[3], normal[3], at[3] = {0, me[1], plane_z(c, me[1])};
+    return cutter_stack(2, 4, xyz, (const uint8_t[4]){1, 0, 0, 0}, false, false);
+}
+
+static void report_chin(const chin *c, const osteotomy_params *p, const guard_point *list, int count, double left,
+                        double right, cut_report *r)
+{
+    double tilt = sqrt(1 + c->slope * c->slope), point[3], normal[3], at[3] = {0, c->me[1], plane_z(c, c->me[1])};
     for (int i = 0; i < count; i++)
         report_clearance(r, list[i].name, (list[i].local[2] - plane_z(c, list[i].local[1])) / tilt, list[i].below,
                          list[i].estimated);
-    report_clearance(r, "chin height at the midline", (plane_z(c, me[1]) - me[2]) / tilt, p->chin_height_mm, false);
-    report_clearance(r, "chin cut leaves the border behind L6 left", left - l6[0][1], 0, false);
-    report_clearance(r, "chin cut leaves the border behind L6 right", right - l6[1][1], 0, false);
+    report_clearance(r, "chin height at the midline", (plane_z(c, c->me[1]) - c->me[2]) / tilt, p->chin_height_mm,
+                     false);
+    report_clearance(r, "chin cut leaves the border behind L6 left", left - c->l6[0][1], 0, false);
+    report_clearance(r, "chin cut leaves the border behind L6 right", right - c->l6[1][1], 0, false);
     head_frame_to_world(&c->frame, at, point);
     for (int k = 0; k < 3; k++) normal[k] = c->slope * c->frame.posterior[k] - c->frame.up[k];
     report_plane(r, "genioplasty", point, normal);
+}
+
+static bool bodies_of(const osteotomy_input *in, const osteotomy_params *p, chin *c, cut_bodies *out, cut_report *r,
+                      err *e)
+{
+    guard_point list[8];
+    locate(c, in);
+    int count = guards(in, p, &c->frame, list, r);
+    choose_plane(c, p, list, count, r);
+    double left = exit_y(c, 1, c->from, c->to), right = exit_y(c, -1, c->from, c->to), end = fmax(left, right);
+    if (!(end < c->to))
+        return err_set(e, ERR_GEOMETRY, "the chin cut does not leave the lower border in front of the angles");
+    cutter body = body_below(c, rear_wall(c, end));
+    report_chin(c, p, list, count, left, right, r);
     *out = cut_bodies_from(&body, p->kerf_mm);
     cutter_free(&body);
     return true;

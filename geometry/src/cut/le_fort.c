@@ -100,74 +100,95 @@ static bool measure(const cutter *c, const probe *p, double *mm, err *e)
     return ok;
 }
 
-/* Root tips from cusps: molars stand along the normal of the upper occlusal plane, the canine halfway between
- * it and the axis of the incisor. */
-static int probes(const osteotomy_input *in, const setting *s, probe out[16], cut_report *r)
+typedef struct root_axes { /* unit, from cusp to root tip */
+    double incisor[3], canine[3], molar[3];
+} root_axes;
+
+/* Molars stand along the normal of the upper occlusal plane, the canine halfway between it and the axis of the
+ * incisor. */
+static root_axes find_axes(const landmarks *l, const head_frame *f, cut_report *r)
 {
-    const landmarks *l = in->points;
     const double *u1 = landmarks_find(l, "U1")->xyz, *left = landmarks_find(l, "U6_L")->xyz,
                  *right = landmarks_find(l, "U6_R")->xyz;
     const landmark *apex = landmarks_find(l, "U1_apex");
-    double across[3], back[3], normal[3], incisor[3], canine[3];
-    int count = 0;
+    root_axes a;
+    double across[3], back[3];
     vec_sub(left, right, across);
     for (int c = 0; c < 3; c++) back[c] = (left[c] + right[c]) / 2 - u1[c];
-    vec_cross(across, back, normal);
-    vec_normalize(normal);
+    vec_cross(across, back, a.molar);
+    vec_normalize(a.molar);
     if (apex)
-        vec_sub(apex->xyz, u1, incisor);
+        vec_sub(apex->xyz, u1, a.incisor);
     else { /* 111 degrees to the Frankfort plane */
-        for (int c = 0; c < 3; c++) incisor[c] = 0.934 * s->frame.up[c] + 0.358 * s->frame.posterior[c];
+        for (int c = 0; c < 3; c++) a.incisor[c] = 0.934 * f->up[c] + 0.358 * f->posterior[c];
         report_warning(r, "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
                        UPPER_1_MM);
     }
-    vec_normalize(incisor);
-    vec_add(incisor, normal, canine);
-    vec_normalize(canine);
+    vec_normalize(a.incisor);
+    vec_add(a.incisor, a.molar, a.canine);
+    vec_normalize(a.canine);
+    return a;
+}
+
+/* Root tips of one side, from landmarks or from cusps; returns how many. */
+static int root_probes(const landmarks *l, const head_frame *f, const root_axes *axes, int side, probe *out,
+                       cut_report *r)
+{
+    const char *word = side > 0 ? "left" : "right";
+    char label[LANDMARK_LABEL_SIZE];
+    static const struct {
+        const char *cusp, *apex, *name;
+        double mm;
+    } teeth[] = {{"U3", "U3_apex", "canine", UPPER_3_MM}, {"U6", "U6_apex", "first molar", UPPER_6_MM}};
+    int count = 0;
+    for (int k = 0; k < 2; k++) {
+        const landmark *cusp = landmarks_find(l, side_label(label, teeth[k].cusp, side)),
+                       *tip = landmarks_find(l, side_label(label, teeth[k].apex, side));
+        if (!cusp && !tip) {
+            report_warning(r, "%s is missing: the cut is not checked against that root", label);
+            continue;
+        }
+        probe *p = out + count++;
+        *p = (probe){.below = true, .estimated = !tip, .decides = true};
+        snprintf(p->name, sizeof p->name, "upper %s apex %s", teeth[k].name, word);
+        if (tip)
+            vec_copy(tip->xyz, p->at);
+        else
+            vec_axpy(cusp->xyz, teeth[k].mm, k == 0 ? axes->canine : axes->molar, p->at);
+    }
+    probe *p = out + count++; /* the second molar follows the first along the arch */
+    *p = (probe){.below = true, .estimated = true};
+    snprintf(p->name, sizeof p->name, "upper second molar apex %s", word);
+    double step[3];
+    for (int c = 0; c < 3; c++) step[c] = f->posterior[c] + 0.15 * side * f->left[c];
+    vec_axpy(step, -vec_dot(step, axes->molar), axes->molar, step);
+    vec_normalize(step);
+    vec_axpy(landmarks_find(l, side_label(label, "U6", side))->xyz, UPPER_M1_WIDTH_MM, step, p->at);
+    vec_axpy(p->at, UPPER_7_MM, axes->molar, p->at);
+    return count;
+}
+
+static int probes(const landmarks *l, const head_frame *f, probe out[16], cut_report *r)
+{
+    const landmark *apex = landmarks_find(l, "U1_apex");
+    root_axes axes = find_axes(l, f, r);
+    int count = 0;
     out[count] = (probe){.name = "upper incisor apex", .below = true, .estimated = true, .decides = true};
     if (apex)
         vec_copy(apex->xyz, out[count++].at);
     else
-        vec_axpy(u1, UPPER_1_MM, incisor, out[count++].at);
+        vec_axpy(landmarks_find(l, "U1")->xyz, UPPER_1_MM, axes.incisor, out[count++].at);
     for (int side = 1; side >= -1; side -= 2) {
-        const char *word = side > 0 ? "left" : "right";
         char label[LANDMARK_LABEL_SIZE];
-        static const struct {
-            const char *cusp, *apex, *name;
-            double mm;
-        } teeth[] = {{"U3", "U3_apex", "canine", UPPER_3_MM}, {"U6", "U6_apex", "first molar", UPPER_6_MM}};
-        for (int k = 0; k < 2; k++) {
-            const landmark *cusp = landmarks_find(l, side_label(label, teeth[k].cusp, side)),
-                           *tip = landmarks_find(l, side_label(label, teeth[k].apex, side));
-            if (!cusp && !tip) {
-                report_warning(r, "%s is missing: the cut is not checked against that root", label);
-                continue;
-            }
-            probe *p = out + count++;
-            *p = (probe){.below = true, .estimated = !tip, .decides = true};
-            snprintf(p->name, sizeof p->name, "upper %s apex %s", teeth[k].name, word);
-            if (tip)
-                vec_copy(tip->xyz, p->at);
-            else
-                vec_axpy(cusp->xyz, teeth[k].mm, k == 0 ? canine : normal, p->at);
-        }
-        probe *p = out + count++; /* the second molar follows the first along the arch */
-        *p = (probe){.below = true, .estimated = true};
-        snprintf(p->name, sizeof p->name, "upper second molar apex %s", word);
-        double step[3];
-        for (int c = 0; c < 3; c++) step[c] = s->frame.posterior[c] + 0.15 * side * s->frame.left[c];
-        vec_axpy(step, -vec_dot(step, normal), normal, step);
-        vec_normalize(step);
-        vec_axpy(landmarks_find(l, side_label(label, "U6", side))->xyz, UPPER_M1_WIDTH_MM, step, p->at);
-        vec_axpy(p->at, UPPER_7_MM, normal, p->at);
+        count += root_probes(l, f, &axes, side, out + count, r);
         const landmark *iof = landmarks_find(l, side_label(label, "IOF", side));
         if (!iof) {
             report_warning(r, "%s is missing: the cut is not checked against the infraorbital nerve", label);
             continue;
         }
-        p = out + count++;
+        probe *p = out + count++;
         *p = (probe){.below = false};
-        snprintf(p->name, sizeof p->name, "infraorbital foramen %s", word);
+        snprintf(p->name, sizeof p->name, "infraorbital foramen %s", side > 0 ? "left" : "right");
         vec_copy(iof->xyz, p->at);
     }
     out[count] = (probe){.name = "posterior nasal spine (palate)", .below = true};
@@ -206,6 +227,52 @@ static void describe(const setting *s, cut_report *r)
     }
 }
 
+static bool locate(setting *s, const osteotomy_input *in, err *e)
+{
+    double u6[2];
+    level *levels[3] = {&s->pr, &s->zb, &s->pm};
+    static const char *const names[3] = {"PR", "ZB", "PM"};
+    for (int k = 0; k < 3; k++) {
+        char label[LANDMARK_LABEL_SIZE];
+        landmark_local(in->points, side_label(label, names[k], 1), &s->frame, levels[k]->left);
+        landmark_local(in->points, side_label(label, names[k], -1), &s->frame, levels[k]->right);
+        if (!(levels[k]->left[0] - levels[k]->right[0] > 10))
+            return err_set(e, ERR_INPUT, "%s_L and %s_R are not left and right of each other", names[k], names[k]);
+    }
+    for (int k = 0; k < 2; k++) {
+        double local[3];
+        landmark_local(in->points, k ? "U6_R" : "U6_L", &s->frame, local);
+        u6[k] = local[2];
+    }
+    landmark_local(in->points, "ANS", &s->frame, s->ans);
+    landmark_local(in->points, "PNS", &s->frame, s->pns);
+    landmark_local(in->points, "U1", &s->frame, s->u1);
+    s->u6_low = fmin(u6[0], u6[1]);
+    if (!(s->pr.left[1] < s->zb.left[1] && s->zb.left[1] < s->pm.left[1] && s->pr.right[1] < s->zb.right[1] &&
+          s->zb.right[1] < s->pm.right[1] && s->ans[1] < s->pns[1]))
+        return err_set(e, ERR_INPUT, "Le Fort I: PR, ZB, PM (and ANS, PNS) must follow each other from front to back");
+    return true;
+}
+
+/* Raises the sheet until the roots are clear, the nerve is near or the limit is reached. *c and mm[count] are those of
+ * the last height. */
+static bool raise_sheet(setting *s, const osteotomy_params *p, const probe *list, int count, cutter *c, double *mm,
+                        err *e)
+{
+    for (;;) {
+        cutter_free(c);
+        *c = build(s);
+        bool short_of = false, nerve = false;
+        for (int i = 0; i < count; i++) {
+            if (!measure(c, list + i, mm + i, e)) return false;
+            short_of |= list[i].decides && mm[i] < p->apex_clearance_mm;
+            nerve |= !list[i].below && mm[i] - raise_step_mm < p->foramen_clearance_mm;
+        }
+        if (!short_of || nerve || s->raise_mm + raise_step_mm > p->le_fort_raise_mm) return true;
+        s->raise_mm += raise_step_mm;
+    }
+}
+
 bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e)
 {
     static const char *const needed[] = {"PR_L", "PR_R", "ZB_L", "ZB_R", "PM_L", "PM_R", "ANS", "PNS",
@@ -213,46 +280,14 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
     setting s = {.palate_mm = p->palate_clearance_mm};
     if (!need_landmarks(in->points, "Le Fort I", needed, e)) return false;
     if (!head_frame_from_landmarks(in->points, &s.frame, e)) return err_prefix(e, "Le Fort I");
-    double u6[2];
-    level *levels[3] = {&s.pr, &s.zb, &s.pm};
-    static const char *const names[3] = {"PR", "ZB", "PM"};
-    for (int k = 0; k < 3; k++) {
-        char label[LANDMARK_LABEL_SIZE];
-        landmark_local(in->points, side_label(label, names[k], 1), &s.frame, levels[k]->left);
-        landmark_local(in->points, side_label(label, names[k], -1), &s.frame, levels[k]->right);
-        if (!(levels[k]->left[0] - levels[k]->right[0] > 10))
-            return err_set(e, ERR_INPUT, "%s_L and %s_R are not left and right of each other", names[k], names[k]);
-    }
-    for (int k = 0; k < 2; k++) {
-        double local[3];
-        landmark_local(in->points, k ? "U6_R" : "U6_L", &s.frame, local);
-        u6[k] = local[2];
-    }
-    landmark_local(in->points, "ANS", &s.frame, s.ans);
-    landmark_local(in->points, "PNS", &s.frame, s.pns);
-    landmark_local(in->points, "U1", &s.frame, s.u1);
-    s.u6_low = fmin(u6[0], u6[1]);
-    if (!(s.pr.left[1] < s.zb.left[1] && s.zb.left[1] < s.pm.left[1] && s.pr.right[1] < s.zb.right[1] &&
-          s.zb.right[1] < s.pm.right[1] && s.ans[1] < s.pns[1]))
-        return err_set(e, ERR_INPUT, "Le Fort I: PR, ZB, PM (and ANS, PNS) must follow each other from front to back");
+    if (!locate(&s, in, e)) return false;
     probe list[16];
     double mm[16];
-    int count = probes(in, &s, list, r);
+    int count = probes(in->points, &s.frame, list, r);
     cutter c = {0};
-    for (;;) { /* raise until the roots are clear, the nerve is near or the limit is reached */
+    if (!raise_sheet(&s, p, list, count, &c, mm, e)) {
         cutter_free(&c);
-        c = build(&s);
-        bool short_of = false, nerve = false;
-        for (int i = 0; i < count; i++) {
-            if (!measure(&c, list + i, mm + i, e)) {
-                cutter_free(&c);
-                return false;
-            }
-            short_of |= list[i].decides && mm[i] < p->apex_clearance_mm;
-            nerve |= !list[i].below && mm[i] - raise_step_mm < p->foramen_clearance_mm;
-        }
-        if (!short_of || nerve || s.raise_mm + raise_step_mm > p->le_fort_raise_mm) break;
-        s.raise_mm += raise_step_mm;
+        return false;
     }
     if (s.raise_mm > 0)
         report_warning(r, "Le Fort I raised by %.2f mm above PR, ZB and PM to clear the estimated root tips",

@@ -60,22 +60,20 @@ static int32_t root_of(int32_t *parent, int32_t i)
     return i;
 }
 
-void tissue_open_lips(const tissue_domain *d, tetmesh *m, uint8_t **side, lip_pairs *out)
+/* The nodes of the facets to be cut: touched[vertex_count]. */
+static void mark_nodes(const tetmesh *m, const uint8_t *cut, uint8_t *touched)
 {
-    int32_t *across = tetmesh_neighbours(m), old_count = m->vertex_count;
-    uint8_t *cut = NEW_ARRAY(uint8_t, 4 * (size_t)m->tet_count), *touched = NEW_ARRAY(uint8_t, old_count);
-    mark_sheet(d, m, across, cut);
-    join_crumbs(m, across, cut);
-    mark_sheet(d, m, across, cut);
     for (size_t i = 0; i < 4 * (size_t)m->tet_count; i++)
         for (int a = 0; cut[i] && a < 3; a++) touched[m->tet[4 * (i / 4) + (size_t)tet_face[i % 4][a]]] = 1;
-    /* One slot per (tet, corner); slots of the same node in tets that share an uncut face belong together. */
+}
+
+/* One slot per (tet, corner); slots of the same node in tets that share an uncut face belong together. Returns the
+ * forest of groups, [4*tet_count]; the caller frees it. */
+static int32_t *group_slots(const tetmesh *m, const int32_t *across, const uint8_t *cut, const uint8_t *touched)
+{
     size_t slots = 4 * (size_t)m->tet_count;
-    int32_t *parent = NEW_ARRAY(int32_t, slots), *group_node = NEW_ARRAY(int32_t, slots);
-    for (size_t i = 0; i < slots; i++) {
-        parent[i] = (int32_t)i;
-        group_node[i] = -1;
-    }
+    int32_t *parent = NEW_ARRAY(int32_t, slots);
+    for (size_t i = 0; i < slots; i++) parent[i] = (int32_t)i;
     for (int32_t t = 0; t < m->tet_count; t++)
         for (int k = 0; k < 4; k++) {
             int32_t other = across[4 * (size_t)t + (size_t)k];
@@ -91,43 +89,82 @@ void tissue_open_lips(const tissue_domain *d, tetmesh *m, uint8_t **side, lip_pa
                     parent[x] = y;
             }
         }
-    int32_t *first = NEW_ARRAY(int32_t, old_count), *upper = NEW_ARRAY(int32_t, old_count),
-            *lower = NEW_ARRAY(int32_t, old_count), total = old_count;
-    for (int32_t v = 0; v < old_count; v++) first[v] = upper[v] = lower[v] = -1;
+    return parent;
+}
+
+typedef struct copies {     /* of the nodes on the sheet */
+    int32_t total;          /* nodes, with the copies */
+    int32_t *group_node;    /* [4*tet_count] of the root of a group: its node */
+    int32_t *upper, *lower; /* [old vertex_count] the first copy in each lip, or -1 */
+} copies;
+
+/* The first group of a node keeps it; each other one gets a new node, in the order of the tets. */
+static copies number_groups(const tetmesh *m, const uint8_t *touched, int32_t *parent)
+{
+    int32_t old_count = m->vertex_count;
+    size_t slots = 4 * (size_t)m->tet_count;
+    copies c = {old_count, NEW_ARRAY(int32_t, slots), NEW_ARRAY(int32_t, old_count), NEW_ARRAY(int32_t, old_count)};
+    uint8_t *seen = NEW_ARRAY(uint8_t, old_count);
+    for (size_t i = 0; i < slots; i++) c.group_node[i] = -1;
+    for (int32_t v = 0; v < old_count; v++) c.upper[v] = c.lower[v] = -1;
     for (size_t i = 0; i < slots; i++) {
         int32_t v = m->tet[i];
         if (!touched[v]) continue;
         int32_t root = root_of(parent, (int32_t)i);
-        if (group_node[root] < 0) {
-            group_node[root] = first[v] < 0 ? v : total++;
-            first[v] = v;
-            int32_t *slot = m->region[i / 4] == REGION_UPPER ? upper : lower;
-            if (slot[v] < 0) slot[v] = group_node[root];
-        }
+        if (c.group_node[root] >= 0) continue;
+        c.group_node[root] = seen[v] ? c.total++ : v;
+        seen[v] = 1;
+        int32_t *lip = m->region[i / 4] == REGION_UPPER ? c.upper : c.lower;
+        if (lip[v] < 0) lip[v] = c.group_node[root];
     }
-    m->xyz = GROW_ARRAY(double, m->xyz, 3 * (size_t)total);
-    *side = GROW_ARRAY(uint8_t, *side, total);
-    for (size_t i = 0; i < slots; i++) {
+    free(seen);
+    return c;
+}
+
+static void split_nodes(tetmesh *m, uint8_t **side, const uint8_t *touched, int32_t *parent, const copies *c)
+{
+    int32_t old_count = m->vertex_count;
+    m->xyz = GROW_ARRAY(double, m->xyz, 3 * (size_t)c->total);
+    *side = GROW_ARRAY(uint8_t, *side, c->total);
+    for (size_t i = 0; i < 4 * (size_t)m->tet_count; i++) {
         int32_t v = m->tet[i];
         if (v >= old_count || !touched[v]) continue;
-        int32_t copy = group_node[root_of(parent, (int32_t)i)];
+        int32_t copy = c->group_node[root_of(parent, (int32_t)i)];
         vec_copy(m->xyz + 3 * (size_t)v, m->xyz + 3 * (size_t)copy);
         (*side)[copy] = (*side)[v];
         m->tet[i] = copy;
     }
-    m->vertex_count = total;
-    *out = (lip_pairs){.node = NEW_ARRAY(int32_t, 2 * (size_t)old_count)};
+    m->vertex_count = c->total;
+}
+
+static lip_pairs pair_copies(const copies *c, int32_t old_count)
+{
+    lip_pairs out = {.node = NEW_ARRAY(int32_t, 2 * (size_t)old_count)};
     for (int32_t v = 0; v < old_count; v++) {
-        if (upper[v] < 0 || lower[v] < 0 || upper[v] == lower[v]) continue;
-        out->node[2 * out->count] = upper[v];
-        out->node[2 * out->count++ + 1] = lower[v];
+        if (c->upper[v] < 0 || c->lower[v] < 0 || c->upper[v] == c->lower[v]) continue;
+        out.node[2 * out.count] = c->upper[v];
+        out.node[2 * out.count++ + 1] = c->lower[v];
     }
+    return out;
+}
+
+void tissue_open_lips(const tissue_domain *d, tetmesh *m, uint8_t **side, lip_pairs *out)
+{
+    int32_t *across = tetmesh_neighbours(m), old_count = m->vertex_count;
+    uint8_t *cut = NEW_ARRAY(uint8_t, 4 * (size_t)m->tet_count), *touched = NEW_ARRAY(uint8_t, old_count);
+    mark_sheet(d, m, across, cut);
+    join_crumbs(m, across, cut);
+    mark_sheet(d, m, across, cut);
+    mark_nodes(m, cut, touched);
+    int32_t *parent = group_slots(m, across, cut, touched);
+    copies c = number_groups(m, touched, parent);
+    split_nodes(m, side, touched, parent, &c);
+    *out = pair_copies(&c, old_count);
     free(across);
     free(cut);
     free(touched);
     free(parent);
-    free(group_node);
-    free(first);
-    free(upper);
-    free(lower);
+    free(c.group_node);
+    free(c.upper);
+    free(c.lower);
 }
