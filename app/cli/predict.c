@@ -67,7 +67,6 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
 /* Writes the output folder. Only an equilibrium becomes meshes and pictures; a failed solve leaves its record. */
 static bool write_all(const run_context *r, outcome *o, err *e)
 {
-    const predict_options *in = r->own;
     const output_dir *dir = &r->dir;
     bool ok = true;
     double start = clock_s();
@@ -76,6 +75,7 @@ static bool write_all(const run_context *r, outcome *o, err *e)
         ok = outcome_write_meshes(o, dir, e);
         o->write_s = clock_s() - start;
 #if GNATHOS_WITH_RENDER
+        const predict_options *in = r->own;
         if (ok && !in->no_pictures) {
             command_progress_at(&r->common, "drawing the pictures", 0.85);
             ok = draw(o, dir, e);
