@@ -1,7 +1,7 @@
 #!/bin/sh
-# planted.sh LAYERING: the layering test catches each of these breaches and lets what is right pass.
+# planted.sh LAYERING SIZES: the tests of layers and of sizes catch each of these breaches and let what is right pass.
 set -u
-layering=$1
+layering=$1 sizes=$2
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 missed=0
@@ -79,4 +79,34 @@ lay app/planner/store/a.h ' * a text that was on stdout'
 lay app/planner/store/b.c '    fprintf(w.stream, "%d", snprintf(text, 9, "printf"));'
 lay app/planner/plan/a.c '    on_exit(f); task_exit(t);'
 passes 'a good tree'
+
+lines() { # COUNT FILE: so many lines more
+    awk -v n="$1" 'BEGIN { for (i = 0; i < n; i++) print "    work();" }' >>"$work/tree/$2"
+}
+function_of() { # LINES FILE: one more function, braces counted
+    printf 'void f(void)\n{\n' >>"$work/tree/$2"
+    lines $(($1 - 2)) "$2"
+    echo '}' >>"$work/tree/$2"
+}
+sized() { # refused or passed, WHAT
+    sh "$sizes" "$work/tree" >/dev/null && got=passed || got=refused
+    [ $got = "$1" ] || { echo "$2: not $1"; missed=1; }
+    rm -rf "$work/tree"
+}
+lay sim/src/a.c ''
+function_of 61 sim/src/a.c
+sized refused 'a function of 61 lines'
+lay geometry/cgal/a.cpp ''
+function_of 60 geometry/cgal/a.cpp
+function_of 61 geometry/cgal/a.cpp
+sized refused 'the second function of C++ has 61 lines'
+lay app/cli/a.h ''
+lines 320 app/cli/a.h
+sized refused 'a header of 321 lines'
+lay app/cli/a.h ''
+lines 319 app/cli/a.h
+lay sim/src/a.c ''
+function_of 60 sim/src/a.c
+function_of 60 sim/src/a.c
+sized passed 'what is just short enough'
 exit $missed
