@@ -36,7 +36,7 @@ typedef struct contact_params {
     double support;         /* of lips: h over the longest edge at a node; 1.5 to 2 */
     double activation_mm;   /* where surfaces apart at rest begin to push */
     double depth_mm;        /* expected under pressure_kpa: k = pressure / (3 depth^2) */
-    double pressure_kpa;    /* 0: Young's modulus of the stiffest tissue */
+    double pressure_kpa;    /* infinity: Young's modulus of the stiffest tissue */
     double depth_limit_mm;  /* deeper contacts are stiffened and solved again; refused as a result */
     int max_stiffenings;    /* of all contacts that are too deep, each by 4 */
     double facing_cos;      /* samples of a lip whose normal is farther from the node's own than this are not asked */

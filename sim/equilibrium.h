@@ -49,7 +49,7 @@ typedef struct solve_record {
     double tolerance_mn, energy_uj;
     double step; /* fraction of the direction taken */
     hessian_kind hessian;
-    int cg_iterations; /* of conjugate gradients for this step; 0: a factor */
+    int cg_iterations; /* of conjugate gradients for this step */
     double factor_s;   /* wall time of making the matrix ready for this step */
     double min_j;
     int32_t inverted_count;

@@ -10,7 +10,7 @@ contact_params contact_params_default(void)
     return (contact_params){.support = 1.75,
                             .activation_mm = 0.1,
                             .depth_mm = 0.05,
-                            .pressure_kpa = 0,
+                            .pressure_kpa = HUGE_VAL,
                             .depth_limit_mm = 0.1,
                             .max_stiffenings = 8,
                             .facing_cos = -0.25,
@@ -27,8 +27,8 @@ static bool check_params(const contact_params *p, err *e)
     if (!(p->activation_mm >= 0))
         return err_set(e, ERR_INPUT, "contact activation_mm must be >= 0, got %g", p->activation_mm);
     if (!(p->depth_mm > 0)) return err_set(e, ERR_INPUT, "contact depth_mm must be > 0, got %g", p->depth_mm);
-    if (!(p->pressure_kpa >= 0))
-        return err_set(e, ERR_INPUT, "contact pressure_kpa must be >= 0, got %g", p->pressure_kpa);
+    if (!(p->pressure_kpa > 0))
+        return err_set(e, ERR_INPUT, "contact pressure_kpa must be > 0, got %g", p->pressure_kpa);
     if (!(p->depth_limit_mm > 0))
         return err_set(e, ERR_INPUT, "contact depth_limit_mm must be > 0, got %g", p->depth_limit_mm);
     if (!(p->facing_cos >= -1 && p->facing_cos < 1))
@@ -188,7 +188,7 @@ static void measure_rest(contact *c, const tetmesh *m)
     rigid still[SEGMENT_COUNT], guide = rigid_identity();
     for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
     contact_move(c, still, &guide, m->xyz);
-    c->motion_reach_mm = 1e3;
+    c->motion_reach_mm = HUGE_VAL;
     contact_refresh(c, m->xyz);
     contact_energy(c, m->xyz, NULL);
     for (int32_t i = 0; i < c->node_count; i++)
@@ -222,7 +222,7 @@ bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setu
     const contact_params *p = &setup->params;
     c->setup = *setup;
     c->mesh_node_count = m->vertex_count;
-    c->k = (p->pressure_kpa > 0 ? p->pressure_kpa : young_kpa) / (3 * p->depth_mm * p->depth_mm);
+    c->k = (isfinite(p->pressure_kpa) ? p->pressure_kpa : young_kpa) / (3 * p->depth_mm * p->depth_mm);
     bool ok = find_nodes(c, m, attach, e);
     c->own_sample = NEW_ARRAY(int32_t, c->node_count);
     c->level_mm = NEW_ARRAY(double, c->node_count);

@@ -73,7 +73,7 @@ double point_evaluate(descent *d, bool touching, const double *x, point *p);
 void point_accept(descent *d, double energy);
 /* Energy, force and residual of the present iterate, as after a change of what counts. */
 void point_measure(descent *d);
-/* Contacts at the present iterate or (trial) the trial point that are deeper than was foreseen give way; then x and z
+/* Contacts at p, which is where they were last evaluated, that are deeper than was foreseen give way; then its x and z
  * are where they get to. Returns the farthest move, mm; see contact_yield. */
 double point_yield(descent *d, point *p);
 /* Step length along direction, 0 where none is good; then the accepted point is the present one. */

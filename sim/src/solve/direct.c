@@ -1,7 +1,8 @@
-#include "geometry/mem.h"
-#include "geometry/vec.h"
+/* Directions by factorised matrices, and what to factorise. */
 #include "geometry/clock.h"
+#include "geometry/mem.h"
 #include "sim/src/solve/descent.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,11 +49,10 @@ void direct_fill(descent *d, const double *x, projection how)
 {
     assembly *a = &d->t->a;
     double begin = clock_s();
-    free(d->t->matrix_x);
-    d->t->matrix_x = NULL;
-    if (d->load.way == BY_GRADIENTS && !load_touching(&d->load) && how == PROJECTION_NONE)
-        d->t->matrix_x = COPY_ARRAY(double, x, 3 * (size_t)a->node_count);
     bool touching = load_touching(&d->load);
+    solver_forget_blocks(d->t);
+    if (d->load.way == BY_GRADIENTS && !touching && how == PROJECTION_NONE)
+        d->t->matrix_x = COPY_ARRAY(double, x, 3 * (size_t)a->node_count);
     term_stiffness(&d->t->terms, touching, x, touching ? d->here.force : NULL, how, a);
     assembly_matrix(a, &d->t->b);
     d->out->assemble_s += clock_s() - begin;

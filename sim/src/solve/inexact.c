@@ -1,6 +1,7 @@
+/* Directions by conjugate gradients. */
+#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "sim/src/linear/cg.h"
-#include "geometry/clock.h"
 #include "sim/src/solve/descent.h"
 #include <math.h>
 #include <stdlib.h>

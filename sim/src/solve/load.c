@@ -1,4 +1,4 @@
-#include "geometry/mem.h"
+/* A load through its phases. */
 #include "sim/src/solve/descent.h"
 #include <assert.h>
 #include <math.h>
@@ -23,6 +23,8 @@ static void end(load_state *l, solve_outcome outcome)
     l->outcome = outcome;
 }
 
+static const double least_mm = 1e-9; /* of a step: where bones stay, their move is no measure */
+
 /* At the start, with what is asked of it. */
 static void begin(descent *d, const load_task *task, const double *x_start)
 {
@@ -41,7 +43,7 @@ static void begin(descent *d, const load_task *task, const double *x_start)
                            .way = step_first_way(d),
                            .asked_mn = asked,
                            .tolerance_mn = asked,
-                           .settled_mm = on_the_way ? HUGE_VAL : sqrt(task->rel_tol) * moved};
+                           .settled_mm = on_the_way ? HUGE_VAL : fmax(sqrt(task->rel_tol) * moved, least_mm)};
     direct_begin_load(&d->direct);
 }
 
@@ -57,12 +59,12 @@ static void run_start(descent *d)
 /* The first guess, with or without contact. */
 static bool run_guess(descent *d, const double *x_start, err *e)
 {
-    step_taken none = {0};
+    step_taken guess = {0};
     bool ok = true;
     if (d->params->predictor == PREDICT_ELASTIC &&
-        !start_guess(d, x_start, &none.factor_s, &none.cg_iterations, &ok, e))
+        !start_guess(d, x_start, &guess.factor_s, &guess.cg_iterations, &ok, e))
         return false;
-    result_record(d, 0, &none);
+    result_record(d, 0, &guess);
     if (!ok || !isfinite(d->energy)) end(&d->load, STOPPED_NOT_FINITE);
     return true;
 }

@@ -1,19 +1,22 @@
 /* load_path: from the bones at rest to where they go, in as many loads as it takes.
  *
- *    GUESS --- solved -----------------------------------------------+
- *      | failed: from rest                                           v
- *      v    .-- solved: the next load -----.    the whole load    REACHED
- *    EVERY -+-- failed: half the step      +------ is solved --------^
- *      ^    `-- failed, no halving is left --> STOPPED               |
- *      | failed: from rest                                           |
- *    LATE ---- solved: the next load; the whole load is solved ------+
+ *    GUESS --- solved ------------------------> REACHED
+ *      | failed: from rest                       ^   ^
+ *      v                                         |   |
+ *    EVERY --- the last load is solved ----------+   |
+ *      ^  \--- failed, no halving is left --> STOPPED |
+ *      | failed: from rest                           |
+ *    LATE ---- the last load is solved --------------+
+ *
+ * and in LATE and EVERY from load to load: solved, the next one is aimed at; failed in EVERY, the step is halved, and
+ * doubled again after two loads that were solved.
  *
  * GUESS  one load, the whole way, from a guess at the result
  * LATE   steps from rest, contact at the last load only: what is held keeps in touch without it
  * EVERY  steps from rest, contact at each
  *
- * A path begins at GUESS where there is one, else at LATE where contact is held, else at EVERY. Where no halvings are
- * allowed, the first failure stops. */
+ * A path begins at GUESS where there is one, else at LATE where contact is held, else at EVERY. A new beginning counts
+ * as a halving; where none is allowed, the first failure stops. */
 #pragma once
 #include <stdbool.h>
 

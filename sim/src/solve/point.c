@@ -92,7 +92,7 @@ static bool falls_enough(const descent *d, double energy, double step, double sl
            point_dot(d->trial.g, d->trial.g, n) < point_dot(d->here.g, d->here.g, n);
 }
 
-/* Energy of the trial point z_new. */
+/* Energy of the trial point, placed from its unknowns. */
 static double try_point(descent *d)
 {
     boundary_place(&d->t->b, d->trial.z, d->trial.x);

@@ -62,6 +62,7 @@ static void report_contact(const descent *d, equilibrium *q)
     q->contact.free_iterations = kept.free_iterations;
     q->contact.contact_iterations = kept.contact_iterations;
     q->contact.refresh_change_mm = kept.refresh_change_mm;
+    q->contact.slide_off_mm = kept.slide_off_mm;
     q->contact.passed = contact_passed(c, d->here.x);
 }
 

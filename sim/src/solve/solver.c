@@ -55,12 +55,18 @@ bool solver_order(solver *t, err *e)
     return t->l || linear_create(t->b.unknown_count, t->a.column_start, t->a.row, t->blas_threads, &t->l, e);
 }
 
+void solver_forget_blocks(solver *t)
+{
+    free(t->matrix_x);
+    t->matrix_x = NULL;
+}
+
 void solver_destroy(solver **t)
 {
     if (!*t) return;
     multigrid_destroy(&(*t)->grid);
     blocks_free(&(*t)->k);
-    free((*t)->matrix_x);
+    solver_forget_blocks(*t);
     node_blocks_free(&(*t)->f);
     linear_destroy(&(*t)->l);
     contact_destroy(&(*t)->touch);
@@ -161,8 +167,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     if (t->touch) contact_restart(t->touch);
     if (!start_xyz) { /* what is solved from rest does not depend on plans before */
         multigrid_destroy(&t->grid);
-        free(t->matrix_x);
-        t->matrix_x = NULL;
+        solver_forget_blocks(t);
     }
     load_path path =
         load_path_begin(start_xyz != NULL, t->touch && t->touch->setup.held, params->load_steps, params->max_halvings);

@@ -29,3 +29,5 @@ struct solver {
 
 /* Makes t->l where it is not there. Refuses what linear_create refuses. */
 bool solver_order(solver *t, err *e) MUST_CHECK;
+/* The node blocks become others: matrix_x no longer holds. */
+void solver_forget_blocks(solver *t);

@@ -26,6 +26,7 @@ double start_reference(descent *d)
         rigid_apply(&t->b.guide, t->mesh->xyz + i, carried + i);
         vec_sub(d->trial.x + i, carried + i, d->trial.x + i);
     }
+    solver_forget_blocks(t);
     term_stiffness(&t->terms, false, carried, NULL, PROJECTION_NONE, &t->a);
     free(carried);
     assembly_multiply(&t->a, d->trial.x, d->trial.force);
@@ -45,7 +46,7 @@ double start_bones_move(const solver *t)
     return most;
 }
 
-/* direction = response of the unknowns to the load g_new, about x; *ok false: none. */
+/* direction = response of the unknowns to the load trial.g, about x_start; *ok false: none. */
 static bool respond(descent *d, const double *x_start, double *seconds, int *cg_iterations, bool *ok, err *e)
 {
     solver *t = d->t;
