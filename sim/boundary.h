@@ -3,12 +3,14 @@
  * Node v lies at x_v = origin_v + sum_k basis_vk z[unknown_vk]; unknown -1 means z = 0 (prescribed).
  *   free     three unknowns along x, y, z; origin = rest position
  *   tied     none; origin = T X with T the motion of its segment
- *   sliding  two, across the normal turned by T; origin = T X, so the node stays on the moved tangent plane
- * (or at its shift from it) pair     five for two nodes: one shared, along the pair normal, and two each
- * across it. The lips keep in touch and slide along each other without friction; they cannot part: opening
- * lips needs contact instead. The directions turn with the guide. The guide is the rigid motion that fits the
- * prescribed nodes best, and exactly theirs where they all share one. It carries what the bones do not:
- * origin of pairs and the first guess for free nodes. */
+ *   sliding  two, across the normal turned by T; origin = T X, so the node stays on the moved tangent plane (or at its
+ *            shift from it)
+ *   pair     five for two nodes: one shared, along the pair normal, and two each across it. The lips keep in touch and
+ *            slide along each other without friction; they cannot part: opening lips needs contact instead. The
+ *            directions turn with the guide.
+ *
+ * The guide is the rigid motion that fits the prescribed nodes best, and exactly theirs where they all share one. It
+ * carries what the bones do not: origin of pairs and the first guess for free nodes. */
 #pragma once
 #include "geometry/attach_map.h"
 #include "geometry/rigid.h"

@@ -22,8 +22,7 @@
  * asked (a lip thinner than h would else have no inside). A node that got deeper than 0.4 h under a lip sees
  * with a wider support, renewed at each Newton step, until it is out. Normals and weights are frozen at each
  * refresh, so the gap is linear in the nodes of both lips: equal and opposite forces, a positive semidefinite
- * stiffness. Folds sharper than h are smoothed away, and depths are told below the smoothed lip.
- */
+ * stiffness. Folds sharper than h are smoothed away, and depths are told below the smoothed lip. */
 #pragma once
 #include "geometry/rigid.h"
 #include "geometry/segments.h"
@@ -43,8 +42,7 @@ typedef struct contact_params {
     double slide_mm;        /* how far lips may slide before their coupling leaves the matrix (not the forces) */
     double free_rel_tol;    /* phase A, without contact: tolerance and */
     int free_iterations;    /* most iterations; 0: no phase A */
-    int refresh_iterations; /* colliders are renewed in each of so many iterations, then when those converged
-                             */
+    int refresh_iterations; /* colliders are renewed in each of so many iterations, then when those converged */
 } contact_params;
 
 contact_params contact_params_default(void);

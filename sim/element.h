@@ -16,8 +16,7 @@ typedef struct elements {
     struct material *materials;
 } elements;
 
-/* Refuses (ERR_GEOMETRY) what tetmesh_check refuses and (ERR_INPUT) a region without a material or with two.
- */
+/* Refuses (ERR_GEOMETRY) what tetmesh_check refuses and (ERR_INPUT) a region without a material or with two. */
 bool elements_make(const tetmesh *m, const region_material *table, int32_t table_count, elements *out,
                    err *e) MUST_CHECK;
 void elements_free(elements *el);

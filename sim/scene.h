@@ -27,8 +27,8 @@ typedef struct scene_report {
     int rounds;
     int32_t nodes, tets, left_out_nodes, left_out_tets; /* nodes and tets in all; left out in the last round */
     double left_out_mm3;
-    double *error;   /* [3*nodes] mm: how far each node would still move, were nothing left out; zero where
-                        nothing   is. The caller frees (scene_report_free) */
+    double *error;   /* [3*nodes] mm: how far each node would still move, were nothing left out; zero where nothing is.
+                        The caller frees (scene_report_free) */
     double error_mm; /* largest length in it */
     double estimate_s, check_s;
 } scene_report;

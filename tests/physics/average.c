@@ -1,5 +1,4 @@
-/* Averaged volume changes: derivatives, patch, rigid motion, several materials, threads, ways to solve, and
- * what they do about locking. */
+/* Averaged volume changes: derivatives, patch, rigid motion, several materials, threads, ways to solve, locking. */
 #include "tests/check.h"
 #include "geometry/parallel.h"
 #include "sim/src/solve/descent.h"

@@ -11,12 +11,11 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool guard;           /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
-                             link before */
-    bool flat;            /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side
-                           */
-    bool faced;           /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
-    int turns;            /* of flat, since contact_restart */
+    bool guard; /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
+                   link before */
+    bool flat;  /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
+    bool faced; /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
+    int turns;  /* of flat, since contact_restart */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
@@ -56,8 +55,7 @@ typedef struct contact {
 } contact;
 
 /* attach: as the caller gave it, with sliding and paired nodes. Refuses (ERR_INPUT) parameters out of range,
- * sliding nodes whose segment has no shape, one lip without the other, too fine lips and broken face lists.
- */
+ * sliding nodes whose segment has no shape, one lip without the other, too fine lips and broken face lists. */
 bool contact_make(const tetmesh *m, const attach_map *attach, const contact_setup *setup, double young_kpa,
                   contact **out, err *e) MUST_CHECK;
 void contact_destroy(contact **c);
@@ -116,8 +114,7 @@ double contact_force(const contact *c);
 /* Of the last contact_energy. */
 contact_report contact_measure(const contact *c);
 
-/* Lips, contact_lips.c. Samples at their nodes, and what they couple; refuses what contact_make does of lips.
- */
+/* Lips, contact_lips.c. Samples at their nodes, and what they couple; refuses what contact_make does of lips. */
 bool contact_make_lips(contact *c, const tetmesh *m, err *e) MUST_CHECK;
 /* Their samples at x[3*nodes]. */
 void contact_move_lips(contact *c, const double *x);
