@@ -1,6 +1,7 @@
 /* gnathos audit CASE --plan P: one plan by all limits. */
 #include "app/cli/audit.h"
 #include "app/cli/plan_audit_print.h"
+#include "app/planner/judge/judgement_record.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/worst_places.h"
 #endif
@@ -9,12 +10,11 @@
 #include <stdlib.h>
 
 /* audit.json and, where this build draws, worst_places.png. */
-static bool write_all(const judge *j, const plan_audit *a, const plan_moves *moves, const output_dir *dir, err *e)
+static bool write_all(const judge *j, const plan_audit *a, const json_t *record, const plan_moves *moves,
+                      const output_dir *dir, err *e)
 {
     char *path = output_dir_file(dir, "audit.json");
-    json_t *record = plan_audit_json(a);
     bool ok = json_file_write(record, path, e);
-    json_decref(record);
     free(path);
 #if GNATHOS_WITH_RENDER
     char title[FIELD_TEXT_SIZE * 2 + 16];
@@ -23,6 +23,7 @@ static bool write_all(const judge *j, const plan_audit *a, const plan_moves *mov
     ok = ok && judge_picture_write(j, moves, &a->judgement, title, path, e);
     free(path);
 #else
+    (void)a;
     (void)j;
     (void)moves;
 #endif
@@ -35,13 +36,15 @@ bool audit_plan_run(run_context *r, err *e)
     if (!judge_create(&r->patient, &r->prepared, &j, e)) return false;
     plan_audit *a = NEW_ARRAY(plan_audit, 1);
     plan_audit_make(j, &r->patient, &r->prepared, &r->plan, &r->moves, a);
-    bool ok = !r->out_path || (write_all(j, a, &r->moves, &r->dir, e) && output_dir_close(&r->dir, e));
+    json_t *record = plan_audit_json(a);
+    bool ok = !r->out_path || (write_all(j, a, record, &r->moves, &r->dir, e) && output_dir_close(&r->dir, e));
     judge_free(&j);
     if (ok && r->common.json)
-        command_print_json(plan_audit_json(a), "audit-plan");
+        command_print_record(json_incref(record));
     else if (ok)
         plan_audit_print(a);
     if (plan_audit_infeasible(a)) r->status = ERR_INFEASIBLE;
+    json_decref(record);
     free(a);
     return ok;
 }

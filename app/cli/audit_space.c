@@ -179,7 +179,7 @@ static bool print(const run_context *r, const audit *a, err *e)
     }
     json_t *record;
     if (!audit_json(a, &record, e)) return false;
-    command_print_json(record, "audit");
+    command_print_record(record);
     return true;
 }
 

@@ -42,19 +42,15 @@ static void print_throughout(const audit *a)
 
 static bool print_not_judged(const audit *a, err *e)
 {
-    json_t *list, *o;
-    size_t i;
-    if (!audit_not_judged(a, &list, e)) return false;
+    audit_gap gap[AUDIT_GAPS_MAX];
+    int count;
+    if (!audit_not_judged(a, gap, &count, e)) return false;
     printf("\nnot judged:\n");
-    json_array_foreach(list, i, o)
-    {
-        const char *why = json_string_value(json_object_get(o, "why"));
-        const json_t *after = json_array_get(list, i + 1); /* limits with the same reason stand in one line */
-        bool last = !after || strcmp(json_string_value(json_object_get(after, "why")), why) != 0;
-        printf("%s%s", json_string_value(json_object_get(o, "what")), last ? ": " : "; ");
-        if (last) printf("%s\n", why);
+    for (int i = 0; i < count; i++) { /* limits with the same reason stand in one line */
+        bool last = i + 1 == count || strcmp(gap[i + 1].why, gap[i].why) != 0;
+        printf("%s%s", gap[i].what, last ? ": " : "; ");
+        if (last) printf("%s\n", gap[i].why);
     }
-    json_decref(list);
     return true;
 }
 

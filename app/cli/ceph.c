@@ -32,10 +32,11 @@ static bool run(run_context *r, err *e)
              landmarks_read(r->patient.landmarks, &record.before, NULL, e) &&
              head_frame_from_landmarks(&record.before, &record.frame, e);
     const landmarks *after = planned ? &record.after : NULL;
-    if (ok && r->common.json)
-        command_print_json(json_pack("{so}", "cephalometry", ceph_report_json(&record.before, after, &record.frame)),
-                           "ceph");
-    else if (ok)
+    if (ok && r->common.json) {
+        ceph_report report;
+        ceph_report_make(&record.before, after, &record.frame, &report);
+        command_print_record(record_json(&cephalometry_table, &report));
+    } else if (ok)
         ceph_print(&record.before, after, &record.frame, o->sex);
     outcome_record_free(&record);
     return ok;

@@ -2,7 +2,7 @@
 #include "app/cli/outcome_print.h"
 #include "app/cli/verb.h"
 #include "app/planner/judge/plan_audit.h"
-#include "app/planner/predict/outcome.h"
+#include "app/planner/predict/outcome_record.h"
 #include "geometry/clock.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/standard.h"
@@ -64,8 +64,9 @@ static bool draw(const outcome *o, const output_dir *dir, err *e)
 }
 #endif
 
-/* Writes the output folder. Only an equilibrium becomes meshes and pictures; a failed solve leaves its record. */
-static bool write_all(const run_context *r, outcome *o, err *e)
+/* Writes the output folder. Only an equilibrium becomes meshes and pictures; a failed solve leaves its record, which
+ * the caller frees. */
+static bool write_all(const run_context *r, outcome *o, json_t **record, err *e)
 {
     const output_dir *dir = &r->dir;
     bool ok = true;
@@ -86,9 +87,8 @@ static bool write_all(const run_context *r, outcome *o, err *e)
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
     if (ok) {
         char *path = output_dir_file(dir, "outcome.json");
-        json_t *record = outcome_json(o);
-        ok = json_file_write(record, path, e);
-        json_decref(record);
+        *record = outcome_json(o);
+        ok = json_file_write(*record, path, e);
         free(path);
     }
     return ok;
@@ -130,13 +130,16 @@ static bool run(run_context *r, err *e)
     if (!judge_bones_first(r, &limits, e) || !predict(r, &limits, &made, e)) return false;
     outcome o = outcome_of(&r->patient, &r->prepared, &r->plan, &r->moves, in->contact, &made);
     o.prepare_s = prepare_s;
-    bool solved = made.solve.outcome == SOLVED, ok = write_all(r, &o, e) && output_dir_close(&r->dir, e);
+    bool solved = made.solve.outcome == SOLVED, ok;
+    json_t *record = NULL;
+    ok = write_all(r, &o, &record, e) && output_dir_close(&r->dir, e);
     if (ok && r->common.json) {
-        command_print_json(outcome_json(&o), "predict");
+        command_print_record(json_incref(record));
     } else if (ok) {
         outcome_print(&o);
         if (solved) printf("Results in %s\n", r->out_path);
     }
+    json_decref(record);
     prediction_free(&made);
     return ok && (solved || err_set(e, ERR_NOT_CONVERGED,
                                     "%s: the solve did not reach equilibrium, so there is no face to show; "

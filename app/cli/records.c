@@ -1,11 +1,17 @@
 #include "app/cli/records.h"
 #include "app/cli/made_record.h"
+#include "app/planner/predict/ceph_report.h"
 #if GNATHOS_WITH_CGAL
 #include "app/cli/new_record.h"
+#include "app/planner/judge/judgement_record.h"
 #include "app/planner/patient/check_record.h"
 #include "app/planner/patient/cut_record.h"
 #include "app/planner/patient/import_record.h"
 #include "app/planner/patient/prepared_report.h"
+#endif
+#if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
+#include "app/planner/bounds/audit_record.h"
+#include "app/planner/predict/outcome_record.h"
 #endif
 #include <stdio.h>
 #include <string.h>
@@ -14,11 +20,13 @@ enum { PATH_SIZE = 256 };
 
 static const record_table *const all[] = {
 #if GNATHOS_WITH_CGAL
-    &new_record_table,      &import_record_table,
-    &check_record_table,    &cut_record_table,
-    &prepared_record_table,
+    &new_record_table,   &import_record_table,   &check_record_table,
+    &cut_record_table,   &prepared_record_table, &plan_audit_table,
 #endif
-    &made_record_table,     NULL};
+#if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
+    &outcome_table,      &audit_table,
+#endif
+    &cephalometry_table, &made_record_table,     NULL};
 
 const record_table *records_nth(int n) { return all[n]; }
 

@@ -1,5 +1,6 @@
 #include "app/report/scene.h"
 #include "app/planner/store/content_hash.h"
+#include "app/planner/store/record.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
@@ -68,10 +69,8 @@ static bool same_text(const json_file *f, const char *key, const json_t *own, er
 bool report_audit(const json_file *audit, const json_t *outcome, bool names, json_t **out, err *e)
 {
     static const char *const own_text[] = {"case", "plan", "override"};
-    const char *schema = json_string_value(json_object_get(audit->root, "schema"));
-    if (!schema || (strcmp(schema, "gnathos.audit.1") != 0 && strcmp(schema, "gnathos.audit-plan.1") != 0))
-        return json_file_refuse(audit, "/schema", e,
-                                "must be gnathos.audit.1 or gnathos.audit-plan.1, as gnathos audit writes");
+    const char *kind = strcmp(record_kind_of(audit->root), "plan_audit") ? "audit" : "plan_audit";
+    if (!record_check(audit, kind, e)) return false;
     if (!same_text(audit, "case", json_object_get(outcome, "case"), e) ||
         !same_text(audit, "plan", json_object_get(json_object_get(outcome, "plan"), "name"), e) ||
         !same_text(audit, "hash", json_object_get(outcome, "case_hash"), e))

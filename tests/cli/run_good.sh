@@ -28,7 +28,7 @@ says 'maxilla_impaction_mm' help plan
 says 'porion' help landmarks
 says 'no errors, 0 warnings' check .
 says 'no errors, 0 warnings' check case.json --plan plan.json
-says '"schema": "gnathos.check.1"' check . --json
+says '"kind": "check"' check . --json
 says '"ok": true' check . --plan plan.json --json -q
 
 printf '{ "gnathos": 1, "maxilla_advance_mm": 12, "override": "cleft" }\n' >far.json

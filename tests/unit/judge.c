@@ -1,7 +1,7 @@
 /* Plans judged on a head of blocks, where every bound is known: the right limit decides, within 0.05 mm. */
 #include "tests/check.h"
 #include "tests/unit/bodies.h"
-#include "app/planner/judge/plan_audit.h"
+#include "app/planner/judge/judgement_record.h"
 #include "geometry/vec.h"
 
 static case_file patient;
@@ -170,7 +170,8 @@ static void bone_to_be_trimmed_is_measured(void **state)
     patient.limits[LIMIT_TRIM_VOLUME].stop[1] = 1000;
     judged(&p, &j);
     assert_int_equal(find(&j, LIMIT_TRIM_VOLUME)->level, LIMIT_STOP);
-    json_t *written = judgement_json(&j, &patient, ""), *one;
+    const judgement_record told = judgement_record_of(&j, &patient, "");
+    json_t *written = record_part(&judgement_table, &told), *one;
     size_t i;
     int seen = 0;
     json_array_foreach(json_object_get(written, "limits"), i, one)

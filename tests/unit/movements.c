@@ -5,8 +5,6 @@
 
 static const head_frame straight = {.left = {1, 0, 0}, .posterior = {0, 1, 0}, .up = {0, 0, 1}};
 
-static double value(const json_t *row, const char *key) { return json_number_value(json_object_get(row, key)); }
-
 static void a_move_is_told_at_the_landmark_of_its_segment(void **state)
 {
     (void)state;
@@ -18,21 +16,22 @@ static void a_move_is_told_at_the_landmark_of_its_segment(void **state)
     vec_copy(l.point[0].xyz, m.pivot_mm);
     move[SEGMENT_MAXILLA] = rig_segment_motion(&m, &straight);
     move[SEGMENT_CHIN] = rigid_translation((double[]){0, -6, 0});
-    json_t *list = movements_json(move, &l, &straight), *maxilla = json_array_get(list, 0),
-           *chin = json_array_get(list, 1);
-    assert_int_equal(json_array_size(list), 2); /* the others stay */
-    assert_string_equal(json_string_value(json_object_get(maxilla, "segment")), "maxilla");
-    assert_string_equal(json_string_value(json_object_get(maxilla, "at")), "U1");
-    assert_near(value(maxilla, "left_mm"), -1.5, 1e-12);
-    assert_near(value(maxilla, "anterior_mm"), 5, 1e-12);
-    assert_near(value(maxilla, "up_mm"), 2, 1e-12);
-    assert_near(value(maxilla, "pitch_deg"), 4, 1e-12);
-    assert_near(value(maxilla, "yaw_deg"), -2, 1e-12);
-    assert_near(value(maxilla, "roll_deg"), 1, 1e-12);
+    movement told[SEGMENT_COUNT];
+    assert_int_equal(movements_make(move, &l, &straight, told), 2); /* the others stay */
+    assert_int_equal(told[0].segment, SEGMENT_MAXILLA);
+    assert_string_equal(told[0].at, "U1");
+    assert_near(told[0].left_mm, -1.5, 1e-12);
+    assert_near(told[0].anterior_mm, 5, 1e-12);
+    assert_near(told[0].up_mm, 2, 1e-12);
+    assert_near(told[0].pitch_deg, 4, 1e-12);
+    assert_near(told[0].yaw_deg, -2, 1e-12);
+    assert_near(told[0].roll_deg, 1, 1e-12);
+    assert_int_equal(told[1].segment, SEGMENT_CHIN);
+    json_t *chin = record_part(&movement_table, &told[1]);
     assert_string_equal(json_string_value(json_object_get(chin, "segment")), "chin");
     assert_true(json_is_null(json_object_get(chin, "at"))); /* no landmark says where */
     assert_true(json_is_null(json_object_get(chin, "anterior_mm")));
-    json_decref(list);
+    json_decref(chin);
     landmarks_free(&l);
 }
 

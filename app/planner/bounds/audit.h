@@ -93,8 +93,12 @@ void audit_rim_mark(audit *a, int request); /* what lies outside the rim, into a
 bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e);
 /* Where a ray ends. */
 void audit_ray_place(const audit_ray *r, int32_t at[SAMPLE_AXES_MAX]);
-/* [{"limit", "what", "why"}]: the limits that are not judged at the base, and those of the face. */
-bool audit_not_judged(const audit *a, json_t **out, err *e) MUST_CHECK;
+enum { AUDIT_GAPS_MAX = FINDINGS_MAX + LIMIT_COUNT };
+typedef struct audit_gap {
+    const char *limit, *what, *why;
+} audit_gap;
+/* The limits that are not judged at the base, and those of the face. */
+bool audit_not_judged(const audit *a, audit_gap out[AUDIT_GAPS_MAX], int *count, err *e) MUST_CHECK;
 /* The whole judgement of one point. */
 bool audit_judge(const audit *a, const int32_t at[SAMPLE_AXES_MAX], judgement *out, plan_moves *moves,
                  err *e) MUST_CHECK;

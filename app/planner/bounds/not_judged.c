@@ -1,13 +1,15 @@
 /* What an audit says nothing about, so that nothing is fine in silence. */
 #include "app/planner/bounds/audit.h"
+#include <assert.h>
 
-static void add(json_t *list, limit_id id, const char *why)
+static void add(audit_gap *out, int *count, limit_id id, const char *why)
 {
     const limit *l = &limit_default[id];
-    json_array_append_new(list, json_pack("{ss ss ss}", "limit", l->name, "what", l->what, "why", why));
+    assert(*count < AUDIT_GAPS_MAX);
+    out[(*count)++] = (audit_gap){l->name, l->what, why};
 }
 
-bool audit_not_judged(const audit *a, json_t **out, err *e)
+bool audit_not_judged(const audit *a, audit_gap out[AUDIT_GAPS_MAX], int *count, err *e)
 {
     static const char *const face =
         "needs the predicted face, see gnathos predict: the bones alone do not tell, since the lip follows 0.2 to 0.5 of "
@@ -16,12 +18,12 @@ bool audit_not_judged(const audit *a, json_t **out, err *e)
     judgement j;
     plan_moves moves;
     if (!audit_judge(a, base, &j, &moves, e)) return false;
-    *out = json_array();
+    *count = 0;
     for (int i = 0; i < j.count; i++)
-        if (j.finding[i].level == LIMIT_NOT_JUDGED) add(*out, j.finding[i].limit, j.finding[i].note);
+        if (j.finding[i].level == LIMIT_NOT_JUDGED) add(out, count, j.finding[i].limit, j.finding[i].note);
     for (int l = LIMIT_SOLVED; l <= LIMIT_STRETCH && !a->tissue_asked; l++)
-        add(*out, (limit_id)l, "the soft tissue was not asked");
-    add(*out, LIMIT_INCISOR_SHOW, face);
-    add(*out, LIMIT_LOWER_FACE, face);
+        add(out, count, (limit_id)l, "the soft tissue was not asked");
+    add(out, count, LIMIT_INCISOR_SHOW, face);
+    add(out, count, LIMIT_LOWER_FACE, face);
     return true;
 }

@@ -1,6 +1,8 @@
-#include "app/planner/bounds/write.h"
+#include "app/planner/bounds/audit_record.h"
+#include "geometry/mem.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The finding that decides at a step of a line. */
 static bool finding_at(const audit *a, const feasible_line *l, int32_t t, finding *out, err *e)
@@ -49,58 +51,35 @@ bool audit_bound_of(const audit *a, int request, int end, audit_bound *out, err 
     return true;
 }
 
-static json_t *number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
-static json_t *range_json(const double r[2]) { return json_pack("[oo]", number(r[0]), number(r[1])); }
-
-static json_t *finding_json(const audit *a, const finding *f)
+static audit_finding finding_view(const audit *a, const finding *f)
 {
-    json_t *o = json_pack("{ss ss so ss}", "limit", limit_default[f->limit].name, "where", f->where, "value",
-                          number(f->value), "unit", limit_default[f->limit].unit);
-    json_object_set_new(o, "stop", range_json(a->patient->limits[f->limit].stop));
-    if (f->estimated) json_object_set_new(o, "estimated", json_true());
-    if (f->has_place) json_object_set_new(o, "place_mm", json_pack("[fff]", f->place[0], f->place[1], f->place[2]));
-    return o;
+    const limit *l = &limit_default[f->limit];
+    audit_finding v = {.limit = l->name,
+                       .where = f->where,
+                       .unit = l->unit,
+                       .value = f->value,
+                       .estimated = f->estimated,
+                       .has_place = f->has_place};
+    memcpy(v.stop, a->patient->limits[f->limit].stop, sizeof v.stop);
+    memcpy(v.place, f->place, sizeof v.place);
+    return v;
 }
 
 /* What holds throughout the box, with its value at the base. */
-static bool throughout_json(const audit *a, json_t **out, err *e)
+static bool find_throughout(const audit *a, audit_view *v, err *e)
 {
     int32_t base[SAMPLE_AXES_MAX] = {0};
     judgement j;
     plan_moves moves;
     if (!audit_judge(a, base, &j, &moves, e)) return false;
-    *out = json_array();
+    v->throughout = NEW_ARRAY(audit_finding, FINDINGS_MAX);
     for (int i = 0; i < j.count; i++) {
         const finding *f = &j.finding[i];
         if (a->throughout[f->limit] <= LIMIT_FINE || f->level < a->throughout[f->limit]) continue;
-        json_t *o = finding_json(a, f);
-        json_object_set_new(o, "level", json_string(limit_level_name(a->throughout[f->limit])));
-        json_array_append_new(*out, o);
+        v->throughout[v->always] = finding_view(a, f);
+        v->throughout[v->always++].level = a->throughout[f->limit];
     }
     return true;
-}
-
-static json_t *place_json(const audit *a, const int32_t *at)
-{
-    json_t *o = json_object();
-    for (int k = 0; k < a->settings.control_count; k++)
-        json_object_set_new(o, a->settings.control[k].name, json_real(audit_value(a, k, at[k])));
-    return o;
-}
-
-/* What the tissue says at the end of a ray: the level at the outermost point that bone and teeth allow, or of the stop.
- */
-static json_t *ray_json(const audit *a, const audit_ray *r)
-{
-    int32_t at[SAMPLE_AXES_MAX];
-    audit_ray_place(r, at);
-    json_t *o = json_pack("{so sb sb}", "reach", place_json(a, at), "solved", r->allowed > 0, "limited", r->limited);
-    if (!r->allowed) return o;
-    json_object_set_new(o, "level", json_string(audit_level_name(r->v.level)));
-    json_object_set_new(o, "limit", json_string(limit_default[r->v.reason].name));
-    json_object_set_new(o, "value", number(r->v.value));
-    return o;
 }
 
 int64_t audit_points_allowed(const audit *a)
@@ -110,133 +89,96 @@ int64_t audit_points_allowed(const audit *a)
     return allowed;
 }
 
-static json_t *tissue_json(const audit *a)
+static audit_tissue_view tissue_view(const audit *a)
 {
     const tissue_set *t = &a->tissue;
-    int64_t allowed = audit_points_allowed(a), iterations = 0, warm = 0;
+    audit_tissue_view v = {
+        .contact = "off", .allowed = audit_points_allowed(a), .solves = t->count, .rounds = t->rounds};
+    v.left_out = v.allowed - t->count;
     for (int i = 0; i < t->count; i++) {
-        iterations += t->point[i].iterations;
-        warm += t->point[i].warm;
+        v.iterations += t->point[i].iterations;
+        v.warm += t->point[i].warm;
     }
-    return json_pack("{ss sI si sI si sI sI}", "contact", "off", "points_that_bone_and_teeth_allow",
-                     (json_int_t)allowed, "solves", t->count, "solves_left_out", (json_int_t)(allowed - t->count),
-                     "rounds", t->rounds, "started_from_a_neighbour", (json_int_t)warm, "iterations",
-                     (json_int_t)iterations);
+    return v;
 }
 
-static json_t *pieces_json(const audit *a, const feasible_line *l, int which)
+static bool end_view(const audit *a, int request, int end, audit_end *out, err *e)
 {
-    json_t *list = json_array();
-    for (int i = 0; i < l->piece_count; i++) {
-        const line_piece *p = &l->piece[i];
-        json_array_append_new(list, json_pack("{sf sf ss ss sf}", "from", audit_value(a, which, p->from), "to",
-                                              audit_value(a, which, p->to), "level", audit_level_name(p->level),
-                                              "limit", limit_default[p->reason].name, "value", p->value));
-    }
-    return list;
+    audit_bound b;
+    if (!audit_bound_of(a, request, end, &b, e)) return false;
+    *out = (audit_end){.fine = b.fine,
+                       .reach = b.feasible ? b.reach : (double)NAN,
+                       .has_caution = b.warned,
+                       .has_stop = b.ended,
+                       .has_ray = b.ray != NULL};
+    if (b.warned) out->caution = finding_view(a, &b.caution);
+    if (b.ended) out->stop = finding_view(a, &b.stop);
+    if (b.ray) out->ray = audit_ray_view_of(a, b.ray);
+    return true;
 }
 
-static bool line_json(const audit *a, int request, json_t **out, err *e)
+static bool line_view(const audit *a, int request, audit_line_view *out, err *e)
 {
     int c = a->settings.request[request].axis[0];
     const control *x = &a->settings.control[c];
     const feasible_line *l = &a->line[request];
-    json_t *o = json_pack("{ss ss sf s[ff] sb}", "control", x->name, "unit", x->unit, "base", a->base_value[c], "box",
-                          audit_value(a, c, a->low[c]), audit_value(a, c, a->high[c]), "base_feasible",
-                          l->piece[l->base].level != VERDICT_STOP);
-    for (int end = -1; end <= 1; end += 2) {
-        audit_bound b;
-        if (!audit_bound_of(a, request, end, &b, e)) {
-            json_decref(o);
-            return false;
-        }
-        json_t *one = json_pack("{so so so so}", "fine_to", number(b.fine), "feasible_to",
-                                b.feasible ? number(b.reach) : json_null(), "caution_beyond",
-                                b.warned ? finding_json(a, &b.caution) : json_null(), "stopped_beyond",
-                                b.ended ? finding_json(a, &b.stop) : json_null());
-        if (b.ray) json_object_set_new(one, "tissue", ray_json(a, b.ray));
-        json_object_set_new(o, end < 0 ? "low" : "high", one);
-    }
-    json_object_set_new(o, "pieces", pieces_json(a, l, c));
-    *out = o;
-    return true;
+    *out = (audit_line_view){.of = a,
+                             .line = l,
+                             .which = c,
+                             .control = x->name,
+                             .unit = x->unit,
+                             .base = a->base_value[c],
+                             .box = {audit_value(a, c, a->low[c]), audit_value(a, c, a->high[c])},
+                             .base_feasible = l->piece[l->base].level != VERDICT_STOP};
+    return end_view(a, request, -1, &out->low, e) && end_view(a, request, 1, &out->high, e);
 }
 
-static json_t *map_json(const audit *a, int request)
+static audit_map_view map_view(const audit *a, int request)
 {
     const feasible_map *m = &a->map[request];
-    json_t *names = json_array(), *o;
-    int64_t judged = 0;
-    for (int k = 0; k < m->params.axis_count; k++)
-        json_array_append_new(names, json_string(a->settings.control[m->params.axis[k]].name));
-    for (int64_t i = 0; i < m->node_count; i++) judged += m->judged[i];
-    char *name = audit_map_name(a, request, "");
-    o = json_pack("{so ss sI sI s{sI sI sI}}", "controls", names, "files", name, "nodes", (json_int_t)m->node_count,
-                  "judged", (json_int_t)judged, "levels", "fine", (json_int_t)m->level_count[VERDICT_FINE], "caution",
-                  (json_int_t)m->level_count[VERDICT_CAUTION], "stop", (json_int_t)m->level_count[VERDICT_STOP]);
-    free(name);
-    json_object_set_new(o, "star_shaped", m->base_stopped ? json_null() : json_boolean(!m->behind_count));
-    json_object_set_new(o, "nodes_behind", json_integer(m->behind_count));
-    if (m->behind_count) {
-        int32_t at[SAMPLE_AXES_MAX];
-        feasible_map_place(m, m->example, at);
-        json_object_set_new(
-            o, "behind_example",
-            json_pack("{so so}", "feasible", place_json(a, at), "stopped_before", place_json(a, m->before)));
+    audit_map_view v = {.of = a,
+                        .request = request,
+                        .map = m,
+                        .files = audit_map_name(a, request, ""),
+                        .asked = a->tissue_asked,
+                        .feasible = {.of = a},
+                        .stopped = {.of = a}};
+    for (int64_t i = 0; i < m->node_count; i++) {
+        v.judged += m->judged[i];
+        v.further += a->tissue_asked && a->outside[request][i] == 2;
     }
-    if (!a->tissue_asked) return o;
-    json_t *rays = json_array();
-    int64_t further = 0;
-    for (int64_t i = 0; i < m->node_count; i++) further += a->outside[request][i] == 2;
-    for (int d = 0; d < 27; d++) {
-        int ray = a->request_ray[request][d];
-        if (d < (m->params.axis_count == 2 ? 9 : 27) && ray >= 0)
-            json_array_append_new(rays, ray_json(a, &a->ray[ray]));
-    }
-    json_object_set_new(o, "tissue_rim", rays);
-    json_object_set_new(o, "nodes_further_out_than_solved", json_integer(further));
-    return o;
-}
-
-static json_t *limits_json(const audit *a)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < LIMIT_COUNT; i++) {
-        const limit *l = &limit_default[i];
-        json_t *o =
-            json_pack("{si ss ss ss so so ss}", "number", i, "name", l->name, "what", l->what, "unit", l->unit, "fine",
-                      range_json(a->patient->limits[i].fine), "stop", range_json(a->patient->limits[i].stop), "source",
-                      a->patient->limit_from_case[i] ? "set by the case" : l->source);
-        json_array_append_new(list, o);
-    }
-    return list;
+    if (!m->behind_count) return v;
+    feasible_map_place(m, m->example, v.feasible.at);
+    memcpy(v.stopped.at, m->before, sizeof v.stopped.at);
+    return v;
 }
 
 bool audit_json(const audit *a, json_t **out, err *e)
 {
-    int32_t zero[SAMPLE_AXES_MAX] = {0};
-    json_t *lines = json_array(), *maps = json_array(), *one, *always = NULL, *unknown = NULL;
-    bool ok = throughout_json(a, &always, e) && audit_not_judged(a, &unknown, e);
+    audit_view v = {.of = a,
+                    .patient = a->patient,
+                    .case_name = a->patient->name,
+                    .hash = a->prepared->hash,
+                    .spacing = a->settings.spacing,
+                    .tolerance = a->settings.tolerance,
+                    .step = a->step,
+                    .base = {.of = a},
+                    .points = a->points.count,
+                    .line = NEW_ARRAY(audit_line_view, AUDIT_REQUESTS_MAX),
+                    .map = NEW_ARRAY(audit_map_view, AUDIT_REQUESTS_MAX),
+                    .has_tissue = a->tissue_asked,
+                    .tissue = tissue_view(a)};
+    bool ok = find_throughout(a, &v, e) && audit_not_judged(a, v.gap, &v.unknown, e);
     for (int i = 0; ok && i < a->settings.request_count; i++) {
         if (a->map[i].node_count)
-            json_array_append_new(maps, map_json(a, i));
-        else if ((ok = line_json(a, i, &one, e)))
-            json_array_append_new(lines, one);
+            v.map[v.maps++] = map_view(a, i);
+        else
+            ok = line_view(a, i, &v.line[v.lines++], e);
     }
-    if (ok) {
-        *out =
-            json_pack("{ss ss ss ss sf sf sf so sI so so so}", "schema", "gnathos.audit.1", "version", GNATHOS_VERSION,
-                      "case", a->patient->name, "hash", a->prepared->hash, "spacing", a->settings.spacing, "tolerance",
-                      a->settings.tolerance, "step", a->step, "base", place_json(a, zero), "points",
-                      (json_int_t)a->points.count, "bounds", lines, "maps", maps, "limits", limits_json(a));
-        json_object_set_new(*out, "throughout", always);
-        json_object_set_new(*out, "not_judged", unknown);
-        json_object_set_new(*out, "tissue", a->tissue_asked ? tissue_json(a) : json_null());
-    } else {
-        json_decref(lines);
-        json_decref(maps);
-        json_decref(always);
-        json_decref(unknown);
-    }
+    if (ok) *out = record_json(&audit_table, &v);
+    for (int i = 0; i < v.maps; i++) free(v.map[i].files);
+    free(v.line);
+    free(v.map);
+    free(v.throughout);
     return ok;
 }

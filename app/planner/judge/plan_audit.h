@@ -15,8 +15,5 @@ void plan_audit_make(const judge *j, const case_file *c, const prepared *p, cons
                      const plan_moves *moves, plan_audit *out);
 /* A stop without an override. */
 bool plan_audit_infeasible(const plan_audit *a);
-json_t *plan_audit_json(const plan_audit *a);
-/* {"worst", "decides", "override", "limits": [...]}: for outcomes too. */
-json_t *judgement_json(const judgement *j, const case_file *c, const char *override);
 /* True unless a finding stops the plan and it has no override; then e names the first one (ERR_INFEASIBLE). */
 bool judgement_allows(const judgement *j, const case_file *c, const plan_file *plan, err *e) MUST_CHECK;

@@ -8,5 +8,3 @@ extern const record_table cuts_table;   /* of a cut_report */
 
 extern const record_table cut_record_table; /* kind "cut": cut_report.json */
 json_t *cut_record_json(const case_file *c, const anatomy *a);
-
-#define SEGMENT_WORDS "cranium|maxilla|distal|proximal_left|proximal_right|chin" /* segment_name of each */

@@ -2,29 +2,40 @@
 #include "app/planner/plan/plan_moves.h"
 #include "geometry/vec.h"
 
-static json_t *row(segment_id s, const rigid *move, const landmarks *before, const head_frame *f)
+static movement movement_of(segment_id s, const rigid *move, const landmarks *before, const head_frame *f)
 {
     const landmark *at = plan_moves_reference(before, s);
-    json_t *out = json_pack("{ss ss?}", "segment", segment_name(s), "at", at ? at->label : NULL);
-    static const char *const name[] = {"left_mm", "anterior_mm", "up_mm"};
-    double d[3] = {0}, pitch, yaw, roll;
+    movement m = {.segment = s, .left_mm = (double)NAN, .anterior_mm = (double)NAN, .up_mm = (double)NAN};
+    double d[3];
     if (at) {
         rigid_apply(move, at->xyz, d);
         vec_sub(d, at->xyz, d);
+        m.at = at->label;
+        m.left_mm = vec_dot(d, f->left);
+        m.anterior_mm = -vec_dot(d, f->posterior);
+        m.up_mm = vec_dot(d, f->up);
     }
-    const double along[] = {vec_dot(d, f->left), -vec_dot(d, f->posterior), vec_dot(d, f->up)};
-    for (int k = 0; k < 3; k++) json_object_set_new(out, name[k], at ? json_real(along[k]) : json_null());
-    rig_angles(move, f, &pitch, &yaw, &roll);
-    json_object_set_new(out, "pitch_deg", json_real(pitch));
-    json_object_set_new(out, "yaw_deg", json_real(yaw));
-    json_object_set_new(out, "roll_deg", json_real(roll));
-    return out;
+    rig_angles(move, f, &m.pitch_deg, &m.yaw_deg, &m.roll_deg);
+    return m;
 }
 
-json_t *movements_json(const rigid move[SEGMENT_COUNT], const landmarks *before, const head_frame *frame)
+int movements_make(const rigid move[SEGMENT_COUNT], const landmarks *before, const head_frame *frame,
+                   movement out[SEGMENT_COUNT])
 {
-    json_t *list = json_array();
+    int count = 0;
     for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (!rigid_is_identity(&move[s])) json_array_append_new(list, row((segment_id)s, &move[s], before, frame));
-    return list;
+        if (!rigid_is_identity(&move[s])) out[count++] = movement_of((segment_id)s, &move[s], before, frame);
+    return count;
 }
+
+static const record_row movement_row[] = {
+    ROW_WORD(movement, segment, "segment", SEGMENT_WORDS, "the bone"),
+    {RECORD_AT(movement, at), .name = "at", .or_null = true, .help = "the landmark on it whose way is told"},
+    ROW(movement, left_mm, "left_mm", "mm", "to the patient's left"),
+    ROW(movement, anterior_mm, "anterior_mm", "mm", "forwards"),
+    ROW(movement, up_mm, "up_mm", "mm", "upwards"),
+    ROW(movement, pitch_deg, "pitch_deg", "degrees", "front end down"),
+    ROW(movement, yaw_deg, "yaw_deg", "degrees", "front end to the left"),
+    ROW(movement, roll_deg, "roll_deg", "degrees", "left side down"),
+};
+const record_table movement_table = {.title = "Move of a segment", RECORD_ROWS(movement_row)};

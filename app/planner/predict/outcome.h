@@ -23,8 +23,6 @@ typedef struct outcome { /* borrows everything */
 /* What a prediction with skin, landmarks and depth shows; the other stages' seconds are the caller's to fill in. */
 outcome outcome_of(const case_file *c, const prepared *p, const plan_file *plan, const plan_moves *moves,
                    contact_kind contact, const prediction *made);
-/* outcome.json as a new object: all numbers that are shown to a user. */
-json_t *outcome_json(const outcome *o);
 /* Meshes, moves and landmarks: skin_before.ply, skin_after.ply and .stl, segment_NAME.ply and .stl where the
  * plan puts them, NAME.tfm for each that moves, tissue.vtu with `displacement`, landmarks_planned.mrk.json.
  */

@@ -1,4 +1,5 @@
 #include "app/planner/predict/outcome_read.h"
+#include "app/planner/store/record.h"
 #include "geometry/mesh_file.h"
 #include <stdio.h>
 #include <string.h>
@@ -50,7 +51,7 @@ bool outcome_record_read(const char *folder, outcome_record *out, err *e)
     char path[PATH_SIZE];
     outcome_record r = {0};
     snprintf(path, sizeof path, "%s/outcome.json", folder);
-    bool ok = json_file_read(path, &r.file, e);
+    bool ok = json_file_read(path, &r.file, e) && record_check(&r.file, "outcome", e);
     if (ok && !json_is_true(json_object_get(json_object_get(r.file.root, "solve"), "solved")))
         ok = json_file_refuse(&r.file, "/solve", e, "the solve did not reach equilibrium: there is no predicted face");
     ok = ok && read_points(&r, e);

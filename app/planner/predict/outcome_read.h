@@ -11,8 +11,8 @@ typedef struct outcome_record {
 } outcome_record;
 
 bool is_outcome(const char *folder); /* it holds outcome.json */
-/* Refuses (ERR_INPUT) what is not an outcome with landmarks, and one whose solve did not reach equilibrium. The
- * caller frees *out. */
+/* Refuses (ERR_INPUT) what record_check refuses, an outcome without landmarks, and one whose solve did not reach
+ * equilibrium. The caller frees *out. */
 bool outcome_record_read(const char *folder, outcome_record *out, err *e) MUST_CHECK;
 /* skin_before.ply or skin_after.ply. The caller frees *out. */
 bool outcome_skin_read(const char *folder, bool after, surface *out, err *e) MUST_CHECK;

@@ -82,9 +82,9 @@ static const void *item(const record_row *r, const void *of, int *i, const char 
 {
     int count;
     const void *first = (const char *)of + r->offset;
-    if (r->next) return r->next(of, i, key, space);
-    memcpy(&count, (const char *)of + r->count_at, sizeof count);
     if (r->pointer) memcpy(&first, first, sizeof first);
+    if (r->next) return r->next(first, i, key, space);
+    memcpy(&count, (const char *)of + r->count_at, sizeof count);
     return *i < count ? (const char *)first + (size_t)*i * r->stride : NULL;
 }
 
@@ -123,6 +123,7 @@ static json_t *value_of(const record_row *r, const void *of)
     if (r->number) return found_number(r, r->number(of));
     if (r->text) return text(r, r->text(of, space));
     if (r->kind == RECORD_LIST || r->kind == RECORD_MAP) return items(r, of);
+    if (r->at) at = r->at(of, space);
     if (r->pointer) memcpy(&at, at, sizeof at);
     return at ? value_at(r, r->kind, at) : NULL;
 }

@@ -47,8 +47,9 @@ typedef struct record_row {
     /* At most one, instead of the offset. `space` is RECORD_SPACE bytes in which the answer may be built. */
     double (*number)(const void *of);                 /* NaN: no value */
     const char *(*text)(const void *of, char *space); /* NULL: no value */
-    /* Of RECORD_LIST and RECORD_MAP: the item at *i, which begins at 0 and goes up by one each time, or at the next *i
-     * that has one; NULL: no more. key is set for a map. */
+    const void *(*at)(const void *of, void *space);   /* where the value is; NULL: no value */
+    /* Of RECORD_LIST and RECORD_MAP, of what is at the offset (which is 0 mostly): the item at *i, which begins at 0
+     * and goes up by one each time, or at the next *i that has one; NULL: no more. key is set for a map. */
     const void *(*next)(const void *of, int *i, const char **key, void *space);
 } record_row;
 
@@ -59,6 +60,8 @@ struct record_table {
     int count;
 };
 #define RECORD_ROWS(rows) .row = rows, .count = (int)(sizeof rows / sizeof *rows)
+
+#define SEGMENT_WORDS "cranium|maxilla|distal|proximal_left|proximal_right|chin" /* segment_name of each */
 
 /* Kind, place and length of a member, from its type. */
 #define RECORD_AT(type, member)                                                                                        \

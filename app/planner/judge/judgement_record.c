@@ -1,0 +1,103 @@
+#include "app/planner/judge/judgement_record.h"
+#include <string.h>
+
+typedef struct judged { /* a finding with what its limit says */
+    const char *limit, *where, *what, *source, *unit, *segment, *other, *note, *remedy;
+    limit_level level;
+    double value, fine[2], stop[2], margin, place[3];
+    bool estimated, has_place;
+} judged;
+
+static bool has_place(const void *of) { return ((const judged *)of)->has_place; }
+
+static const record_row judged_row[] = {
+    ROW(judged, limit, "limit", NULL, "name of the limit"),
+    ROW(judged, where, "where", NULL, "side or place, empty where there is but one"),
+    ROW(judged, what, "what", NULL, "what it limits"),
+    ROW_WORD(judged, level, "level", LEVEL_WORDS, "how the plan stands to it"),
+    ROW(judged, value, "value", NULL, "what the plan makes of it, in its unit"),
+    ROW(judged, fine, "fine", NULL, "range that is fine; null: open"),
+    ROW(judged, stop, "stop", NULL, "range beyond which the plan must say why; null: open"),
+    ROW(judged, margin, "margin", NULL, "to the nearer end of that range, positive inside"),
+    ROW(judged, estimated, "estimated", NULL, "it rests on an estimated point, so that it is caution at most"),
+    ROW(judged, source, "source", NULL, "where the limit comes from"),
+    ROW_OPTIONAL(judged, unit, "unit", NULL, "unit of the numbers"),
+    ROW_WHEN(has_place, judged, place, "place_lps_mm", "LPS mm", "where it is, with the bones as planned"),
+    ROW_OPTIONAL(judged, segment, "segment", NULL, "the bone it is about"),
+    ROW_OPTIONAL(judged, other, "other_segment", NULL, "and the other one"),
+    ROW_OPTIONAL(judged, note, "note", NULL, "why it is not judged, or what to know"),
+    ROW_OPTIONAL(
+        judged, remedy, "remedy", NULL,
+        "the smallest single change of the plan that brings it to the next better level and none to a worse one"),
+};
+static const record_table judged_table = {.title = "A finding", RECORD_ROWS(judged_row)};
+
+static const char *text_or_null(const char *text) { return *text ? text : NULL; }
+
+static const void *next_finding(const void *of, int *i, const char **key, void *space)
+{
+    const judgement_record *r = of;
+    (void)key;
+    if (*i >= r->judgement->count) return NULL;
+    const finding *f = &r->judgement->finding[*i];
+    const limit *l = &limit_default[f->limit];
+    const limit_range *range = &r->patient->limits[f->limit];
+    judged *out = space;
+    _Static_assert(sizeof *out <= RECORD_SPACE, "a finding fits");
+    *out = (judged){.limit = l->name,
+                    .where = f->where,
+                    .what = l->what,
+                    .source = r->patient->limit_from_case[f->limit] ? "set by the case" : l->source,
+                    .unit = text_or_null(l->unit),
+                    .segment = f->segment_a >= 0 ? segment_name((segment_id)f->segment_a) : NULL,
+                    .other = f->segment_b >= 0 ? segment_name((segment_id)f->segment_b) : NULL,
+                    .note = f->note,
+                    .remedy = r->audit ? text_or_null(r->audit->remedy[*i]) : NULL,
+                    .level = f->level,
+                    .value = f->value,
+                    .margin = f->margin,
+                    .estimated = f->estimated,
+                    .has_place = f->has_place};
+    memcpy(out->fine, range->fine, sizeof out->fine);
+    memcpy(out->stop, range->stop, sizeof out->stop);
+    memcpy(out->place, f->place, sizeof out->place);
+    return out;
+}
+
+#define JUDGEMENT_ROWS                                                                                                 \
+    ROW_WORD(judgement_record, worst, "worst", LEVEL_WORDS, "the worst level of all"),                                 \
+        ROW(judgement_record, override, "override", NULL,                                                              \
+            "why the plan may go beyond limits, empty where it may not"),                                              \
+        ROW_LIST(next_finding, &judged_table, "limits", "every limit, in a fixed order"),                              \
+        ROW_OPTIONAL(judgement_record, decides, "decides", NULL, "the limit that decides: of the worst, the nearest")
+
+static const record_row judgement_row[] = {JUDGEMENT_ROWS};
+const record_table judgement_table = {.title = "Judgement of a plan", RECORD_ROWS(judgement_row)};
+
+judgement_record judgement_record_of(const judgement *j, const case_file *c, const char *override)
+{
+    return (judgement_record){.worst = j->worst,
+                              .decides = j->reason >= 0 ? limit_default[j->finding[j->reason].limit].name : NULL,
+                              .override = override,
+                              .judgement = j,
+                              .patient = c};
+}
+
+static const record_row plan_audit_row[] = {
+    JUDGEMENT_ROWS,
+    ROW(judgement_record, case_name, "case", NULL, "name of the case"),
+    ROW(judgement_record, plan, "plan", NULL, "name of the plan"),
+    ROW(judgement_record, feasible, "feasible", NULL, "nothing stops it, or it says why"),
+};
+const record_table plan_audit_table = {
+    .kind = "plan_audit", .title = "Record of gnathos audit --plan, audit.json", RECORD_ROWS(plan_audit_row)};
+
+json_t *plan_audit_json(const plan_audit *a)
+{
+    judgement_record r = judgement_record_of(&a->judgement, a->patient, a->plan->override);
+    r.audit = a;
+    r.case_name = a->patient->name;
+    r.plan = a->plan->name;
+    r.feasible = !plan_audit_infeasible(a);
+    return record_json(&plan_audit_table, &r);
+}
