@@ -97,18 +97,6 @@ void command_progress_at(const command_options *o, const char *stage, double fra
     }
 }
 
-void command_print_json(json_t *object, const char *verb_name)
-{
-    char schema[64];
-    snprintf(schema, sizeof schema, "gnathos.%s.1", verb_name);
-    json_t *whole = json_pack("{s:s, s:s}", "schema", schema, "version", GNATHOS_VERSION);
-    json_object_update(whole, object);
-    json_dumpf(whole, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    putchar('\n');
-    json_decref(whole);
-    json_decref(object);
-}
-
 void command_print_record(json_t *record)
 {
     json_dumpf(record, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));

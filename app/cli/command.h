@@ -30,8 +30,6 @@ task command_task(const command_options *o);
 void command_progress_at(const command_options *o, const char *stage, double fraction);
 /* Prints a record, as json_file_write puts it into a file, and frees it. */
 void command_print_record(json_t *record);
-/* Prints the object with "schema" ("gnathos.<verb>.1") and "version" set, and frees it. */
-void command_print_json(json_t *object, const char *verb_name);
 
 /* True after SIGINT: stop at the next safe point, remove what is half done, return ERR_INTERRUPTED. */
 bool command_interrupted(void);

@@ -1,6 +1,7 @@
 /* gnathos compare PREDICTED ACTUAL: how far a predicted face lies from the actual one. */
 #include "app/cli/compare_print.h"
 #include "app/cli/verb.h"
+#include "app/planner/predict/compare_record.h"
 #include "geometry/mesh_file.h"
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/signed.h"
@@ -67,13 +68,6 @@ static bool write_table(const face_compare *c, const char *path, err *e)
     return whole_file_close(&w, e);
 }
 
-static bool write_json(json_t *record, const char *path, err *e)
-{
-    bool ok = json_file_write(record, path, e);
-    json_decref(record);
-    return ok;
-}
-
 static bool write_pictures(const run_context *r, const face_compare *c, err *e)
 {
     const compare_options *o = r->own;
@@ -92,19 +86,17 @@ static bool write_pictures(const run_context *r, const face_compare *c, err *e)
 #endif
 }
 
-static bool write_folder(run_context *r, const face_compare_input *what, const face_compare *c, err *e)
+static bool write_folder(run_context *r, const json_t *record, const face_compare *c, err *e)
 {
     const output_dir *dir = &r->dir;
-    char *record = output_dir_file(dir, "comparison.json"), *table = output_dir_file(dir, "regions.csv"),
-         *mesh = output_dir_file(dir, "comparison.vtp"), *manifest = output_dir_file(dir, "manifest.json");
+    char *comparison = output_dir_file(dir, "comparison.json"), *table = output_dir_file(dir, "regions.csv"),
+         *mesh = output_dir_file(dir, "comparison.vtp");
     point_array distance = {"Signed", 1, c->signed_mm[PREDICTED]};
-    bool ok = write_json(face_compare_json(what, c), record, e) && write_table(c, table, e) &&
-              mesh_write_surface_arrays(&c->skin[PREDICTED], &distance, 1, mesh, e) && write_pictures(r, c, e) &&
-              write_json(json_pack("{ss ss}", "schema", "gnathos.compare.1", "version", GNATHOS_VERSION), manifest, e);
-    free(record);
+    bool ok = json_file_write(record, comparison, e) && write_table(c, table, e) &&
+              mesh_write_surface_arrays(&c->skin[PREDICTED], &distance, 1, mesh, e) && write_pictures(r, c, e);
+    free(comparison);
     free(table);
     free(mesh);
-    free(manifest);
     return ok && output_dir_close(&r->dir, e);
 }
 
@@ -116,11 +108,14 @@ static bool run(run_context *r, err *e)
     face_compare c = {0};
     face_compare_input what = {r->argument[0], r->argument[1], o->landmarks, o->actual_landmarks, !o->no_align};
     command_progress_at(&r->common, "comparing", -1);
-    bool ok = face_compare_make(&what, &c, e) && (!r->out_path || write_folder(r, &what, &c, e));
+    bool ok = face_compare_make(&what, &c, e);
+    json_t *record = ok ? face_compare_json(&what, &c) : NULL;
+    ok = ok && (!r->out_path || write_folder(r, record, &c, e));
     if (ok && r->common.json)
-        command_print_json(face_compare_json(&what, &c), "compare");
+        command_print_record(json_incref(record));
     else if (ok)
         compare_print(&c);
+    json_decref(record);
     face_compare_free(&c);
     return ok;
 }

@@ -8,10 +8,15 @@
 #include "app/planner/patient/cut_record.h"
 #include "app/planner/patient/import_record.h"
 #include "app/planner/patient/prepared_report.h"
+#include "app/planner/predict/compare_record.h"
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
 #include "app/planner/bounds/audit_record.h"
 #include "app/planner/predict/outcome_record.h"
+#include "app/study/record.h"
+#endif
+#if GNATHOS_WITH_SIM
+#include "app/stress/record.h"
 #endif
 #include <stdio.h>
 #include <string.h>
@@ -22,9 +27,14 @@ static const record_table *const all[] = {
 #if GNATHOS_WITH_CGAL
     &new_record_table,   &import_record_table,   &check_record_table,
     &cut_record_table,   &prepared_record_table, &plan_audit_table,
+    &comparison_table,
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
-    &outcome_table,      &audit_table,
+    &outcome_table,      &audit_table,           &study_record_table,
+    &study_ratios_table, &study_folder_table,
+#endif
+#if GNATHOS_WITH_SIM
+    &stress_table,
 #endif
     &cephalometry_table, &made_record_table,     NULL};
 

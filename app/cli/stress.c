@@ -1,6 +1,6 @@
 /* gnathos stress: does the solver survive stiff and extreme cases, and does it tell the truth about them? */
 #include "app/cli/verb.h"
-#include "app/stress/stress.h"
+#include "app/stress/record.h"
 #include "geometry/mem.h"
 #include <fnmatch.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ typedef struct stress_options {
 enum { KEY_LIST = KEY_OWN, KEY_ONLY, KEY_QUICK, KEY_PATIENCE };
 
 static const struct argp_option options[] = {
-    OPTION_OUTPUT("Folder for stress.md, stress.csv and manifest.json"),
+    OPTION_OUTPUT("Folder for stress.md, stress.csv and stress.json"),
     OPTION_FORCE,
     {"list", KEY_LIST, NULL, 0, "Name the cases and run none", 0},
     {"only", KEY_ONLY, "PATTERN", 0, "Only cases whose names match, as in \"crush/*\"", 0},
@@ -72,14 +72,15 @@ static bool run_all(const run_context *r, const stress_case *const *c, stress_re
 }
 
 /* The first case that is wrong and not known to be is the refusal. */
-static bool conclude(const run_context *r, const stress_case *const *c, const stress_result *result, int count, err *e)
+static bool conclude(const run_context *r, const stress_case *const *c, const stress_result *result, int count,
+                     json_t *record, err *e)
 {
     bool fine = true;
     for (int i = 0; fine && i < count; i++)
         if (result[i].wrong[0] && !c[i]->known)
             fine = err_set(e, ERR_INTERNAL, "%s: %s; %s", c[i]->name, result[i].wrong, result[i].text);
     if (r->common.json)
-        command_print_json(stress_json(c, result, count), "stress");
+        command_print_record(json_incref(record));
     else
         stress_print(c, result, count, stdout);
     return fine;
@@ -102,13 +103,15 @@ static bool run(run_context *r, err *e)
     stress_result *result = NEW_ARRAY(stress_result, count);
     bool ok = true;
     choose(in, chosen);
-    if (in->list)
+    if (in->list) {
         for (int i = 0; i < count; i++) printf("%-24s %s\n", chosen[i]->name, chosen[i]->what);
-    else
-        ok = run_all(r, chosen, result, count, e) &&
-             (!r->out_path ||
-              (stress_write(chosen, result, count, r->dir.part.temporary, e) && output_dir_close(&r->dir, e))) &&
-             conclude(r, chosen, result, count, e);
+    } else if ((ok = run_all(r, chosen, result, count, e))) {
+        json_t *record = stress_json(chosen, result, count);
+        ok = (!r->out_path || (stress_write(chosen, result, count, record, r->dir.part.temporary, e) &&
+                               output_dir_close(&r->dir, e))) &&
+             conclude(r, chosen, result, count, record, e);
+        json_decref(record);
+    }
     free(chosen);
     free(result);
     return ok;

@@ -1,7 +1,7 @@
 /* gnathos study CASE [--plan P] -o DIR: error against run time; --ratios: soft : hard ratios beside published
  * ones. */
 #include "app/cli/verb.h"
-#include "app/study/study.h"
+#include "app/study/record.h"
 #include "geometry/json_file.h"
 #include "geometry/mem.h"
 #include <errno.h>
@@ -53,16 +53,17 @@ static bool open_folder(const char *path, err *e)
         if (rmdir(path))
             return err_at(e, ERR_INPUT, path, 0, NULL,
                           "holds something else than a study; name a new or an empty folder");
-        json_t *mark = json_pack("{ss ss}", "schema", "gnathos.study.1", "version", GNATHOS_VERSION);
+        json_t *mark = study_folder_json();
         bool ok = make_folder(path, e) && json_file_write(mark, marker, e);
         json_decref(mark);
         if (!ok) return false;
     }
     json_file f;
     if (!json_file_read(marker, &f, e)) return false;
-    const char *schema = json_string_value(json_object_get(f.root, "schema"));
-    bool ours = schema && !strcmp(schema, "gnathos.study.1");
+    const char *holds = json_string_value(json_object_get(f.root, "holds"));
+    bool known = record_check(&f, study_folder_table.kind, e), ours = holds && !strcmp(holds, "study");
     json_file_free(&f);
+    if (!known) return false;
     if (!ours)
         return err_at(e, ERR_INPUT, path, 0, NULL, "holds other results of gnathos; name a new or an empty folder");
     snprintf(sub, sizeof sub, "%s/runs", path);
@@ -94,11 +95,13 @@ static bool study(const run_context *r, study_task *work, const char *plan_name,
                      .cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN)};
     bool ok = study_task_key(work, e) && run_ladder(r, &t, e);
     if (ok) study_table_make(&t);
-    ok = ok && study_write(&t, r->out_path, e);
+    json_t *record = ok ? study_json(&t) : NULL;
+    ok = ok && study_write(&t, record, r->out_path, e);
     if (ok && r->common.json)
-        command_print_json(study_json(&t), "study");
+        command_print_record(json_incref(record));
     else if (ok)
         study_print(&t, stdout);
+    json_decref(record);
     study_table_free(&t);
     return ok;
 }
@@ -110,7 +113,7 @@ static bool ratios(const run_context *r, study_task *work, err *e)
     if (!prepared_get(work->patient, r->cache, work->watch, &p, e)) return false;
     json_t *record = NULL;
     bool ok = study_ratios(work, &p, stdout, r->common.json ? &record : NULL, e);
-    if (ok && record) command_print_json(record, "study_ratios");
+    if (ok && record) command_print_record(record);
     prepared_free(&p);
     return ok;
 }

@@ -189,7 +189,8 @@ double stress_depth(const known_bone *b, const double x[3]);
 
 /* The table as Markdown. */
 void stress_print(const stress_case *const *c, const stress_result *r, int count, FILE *out);
-json_t *stress_json(const stress_case *const *c, const stress_result *r, int count);
-/* stress.md, stress.csv and manifest.json. */
-bool stress_write(const stress_case *const *c, const stress_result *r, int count, const char *folder,
-                  err *e) MUST_CHECK;
+const char *stress_kind_name(int kind);
+const char *stress_want_name(int want);
+/* stress.md, stress.csv and stress.json (the record). */
+bool stress_write(const stress_case *const *c, const stress_result *r, int count, const json_t *record,
+                  const char *folder, err *e) MUST_CHECK;

@@ -1,6 +1,7 @@
 /* gnathos study --ratios: every standard move as predict solves it, and on other meshes, beside published
  * windows. */
 #include "app/study/measures.h"
+#include "app/study/record.h"
 #include "app/planner/store/json_table.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -91,49 +92,79 @@ static void print(const answer *a, const char *name, FILE *out)
     fprintf(out, "\n%d measures known, %d outside their window.\n", known, outside);
 }
 
-static json_t *as_json(const answer *a)
+typedef struct answer_view {
+    const char *move, *published, *verdict;
+    char measure[96], why[96];
+    double value[RUNS], bar, low, high;
+} answer_view;
+
+#define VALUE(run, name_, help_)                                                                                       \
+    {                                                                                                                  \
+        .kind = RECORD_NUMBER, .offset = offsetof(answer_view, value) + (run) * sizeof(double), .name = name_,         \
+        .help = help_                                                                                                  \
+    }
+
+static const record_row answer_row[] = {
+    ROW(answer_view, move, "move", NULL, "the standard move"),
+    ROW(answer_view, measure, "measure", NULL, "what is measured of it"),
+    VALUE(PREDICTED, "value", "as gnathos predict solves it"),
+    VALUE(SAME_MESH, "value_without_contact", "the same without contact"),
+    VALUE(COARSER, "value_edges_x1_5", "without contact, on a mesh of edges 1.5 times as long"),
+    VALUE(FINER, "value_edges_x2_halved", "without contact, edges twice as long and halved"),
+    ROW(answer_view, bar, "bar", NULL, "the largest difference that another mesh makes"),
+    ROW(answer_view, low, "low", NULL, "low end of the published window; null: open"),
+    ROW(answer_view, high, "high", NULL, "high end of it; null: open"),
+    ROW(answer_view, published, "published", NULL, "what papers report"),
+    ROW(answer_view, verdict, "verdict", NULL, "how the value stands to the window"),
+    ROW(answer_view, why, "why", NULL, "why it is not known, or what to know"),
+};
+static const record_table answer_table = {.title = "A measure of a standard move", RECORD_ROWS(answer_row)};
+
+typedef struct ratios_view {
+    const char *case_name;
+    const answer *answer;
+} ratios_view;
+
+static const void *next_answer(const void *of, int *i, const char **key, void *space)
 {
-    char name[96];
-    study_measure_name(a->m, name, sizeof name);
-    json_t *o = json_pack("{ss ss}", "move", study_moves[a->m->move].name, "measure", name);
-    const json_column numbers[] = {{"value", a->value[PREDICTED]},
-                                   {"value_without_contact", a->value[SAME_MESH]},
-                                   {"value_edges_x1.5", a->value[COARSER]},
-                                   {"value_edges_x2_halved", a->value[FINER]},
-                                   {"bar", a->bar},
-                                   {"low", a->m->low},
-                                   {"high", a->m->high}};
-    json_columns(o, numbers, sizeof numbers / sizeof *numbers);
-    json_object_set_new(o, "published", json_string(a->m->published));
-    json_object_set_new(o, "verdict", json_string(verdict_text[a->verdict]));
-    json_object_set_new(o, "why", json_string(a->why));
-    return o;
+    (void)key;
+    if (*i == STUDY_MEASURES) return NULL;
+    const answer *a = &((const ratios_view *)of)->answer[*i];
+    answer_view *v = space;
+    *v = (answer_view){.move = study_moves[a->m->move].name,
+                       .published = a->m->published,
+                       .verdict = verdict_text[a->verdict],
+                       .bar = a->bar,
+                       .low = a->m->low,
+                       .high = a->m->high};
+    study_measure_name(a->m, v->measure, sizeof v->measure);
+    memcpy(v->why, a->why, sizeof v->why);
+    memcpy(v->value, a->value, sizeof v->value);
+    return v;
 }
 
-static json_t *table_json(const answer *a, const char *name)
-{
-    json_t *rows = json_array();
-    for (int i = 0; i < STUDY_MEASURES; i++) json_array_append_new(rows, as_json(&a[i]));
-    return json_pack("{ss so}", "case", name, "measures", rows);
-}
+static const record_row ratios_row[] = {
+    ROW(ratios_view, case_name, "case", NULL, "name of the case"),
+    ROW_LIST(next_answer, &answer_table, "measures", "every measure of every standard move"),
+};
+const record_table study_ratios_table = {
+    .kind = "study_ratios", .title = "Record of gnathos study --ratios, ratios.json", RECORD_ROWS(ratios_row)};
 
-static bool write(const answer *a, const study_task *t, err *e)
+static bool write(const answer *a, const json_t *record, const study_task *t, err *e)
 {
+    char path[FIELD_PATH_SIZE + 32];
     for (int csv = 0; csv < 2; csv++) {
-        char path[FIELD_PATH_SIZE + 32];
         whole_file f;
         snprintf(path, sizeof path, "%s/ratios.%s", t->folder, csv ? "csv" : "md");
         if (!whole_file_open(path, &f, e)) return false;
-        if (csv) {
-            json_t *all = table_json(a, t->patient->name);
-            json_table_csv(json_object_get(all, "measures"), f.stream);
-            json_decref(all);
-        } else {
+        if (csv)
+            json_table_csv(json_object_get(record, "measures"), f.stream);
+        else
             print(a, t->patient->name, f.stream);
-        }
         if (!whole_file_close(&f, e)) return false;
     }
-    return true;
+    snprintf(path, sizeof path, "%s/ratios.json", t->folder);
+    return json_file_write(record, path, e);
 }
 
 /* The answers of one move; on each mesh from the journal, else solved now. */
@@ -186,10 +217,13 @@ bool study_ratios(study_task *t, prepared *p, FILE *out, json_t **record, err *e
         bool stands_in = a[i].m->kind == MEASURE_TURNS && !landmarks_find(&p->points, "Cm");
         snprintf(a[i].why, sizeof a[i].why, "%s", stands_in ? "Pn stands for Cm" : "");
     }
-    if (!write(a, t, e)) return false;
-    if (record)
-        *record = table_json(a, t->patient->name);
-    else
+    const ratios_view v = {t->patient->name, a};
+    json_t *own = record_json(&study_ratios_table, &v);
+    bool ok = write(a, own, t, e);
+    if (ok && record)
+        *record = json_incref(own);
+    else if (ok)
         print(a, t->patient->name, out);
-    return true;
+    json_decref(own);
+    return ok;
 }

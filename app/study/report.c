@@ -8,7 +8,11 @@
 #include <string.h>
 #include <time.h>
 
-static const char *const group_text[GROUP_COUNT] = {"mesh", "element", "tolerance", "material", "threads", "scene"};
+const char *study_group_name(int group)
+{
+    static const char *const text[GROUP_COUNT] = {"mesh", "element", "tolerance", "material", "threads", "scene"};
+    return text[group];
+}
 
 static void print_soonest(const study_table *t, double most_mm, bool p95, FILE *out)
 {
@@ -124,7 +128,7 @@ void study_print(const study_table *t, FILE *out)
     fprintf(out, "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < t->count; i++) {
         const study_result *r = &t->run[i].result;
-        fprintf(out, "| %s | %s | %s | ", group_text[study_rungs[i].group], study_rungs[i].name, r->text);
+        fprintf(out, "| %s | %s | %s | ", study_group_name(study_rungs[i].group), study_rungs[i].name, r->text);
         if (!r->solved) {
             fprintf(out, "| | | | | | | %.0f | | | | | |\n", r->peak_mb);
             continue;
@@ -148,79 +152,20 @@ void study_print(const study_table *t, FILE *out)
     print_tubes(t, out);
 }
 
-static json_t *row_json(const study_table *t, int i)
-{
-    const study_result *r = &t->run[i].result;
-    json_t *o = json_pack("{ss ss ss sb sb}", "group", group_text[study_rungs[i].group], "setting", study_rungs[i].name,
-                          "outcome", r->text, "solved", r->solved, "front", t->best[i]);
-    const json_column numbers[] = {{"nodes", r->nodes},
-                                   {"tets", r->tets},
-                                   {"unknowns", (double)r->unknowns},
-                                   {"size_mm", r->size_mm},
-                                   {"iterations", r->iterations},
-                                   {"free_iterations", r->free_iterations},
-                                   {"contact_iterations", r->contact_iterations},
-                                   {"factorisations", r->factorisations},
-                                   {"loads", r->loads},
-                                   {"wall_s", r->wall_s},
-                                   {"cpu_s", r->cpu_s},
-                                   {"prepare_s", r->prepare_s},
-                                   {"assemble_s", r->assemble_s},
-                                   {"factor_s", r->factor_s},
-                                   {"solve_s", r->solve_s},
-                                   {"meshing_s", r->meshing_s > 0 ? r->meshing_s : (double)NAN},
-                                   {"peak_MB", r->peak_mb},
-                                   {"residual_mN", r->residual_mn},
-                                   {"initial_residual_mN", r->initial_mn},
-                                   {"min_J", r->min_j},
-                                   {"inverted_tets", r->inverted},
-                                   {"mean_error_mm", t->error[i].mean_mm},
-                                   {"p95_error_mm", t->error[i].p95_mm},
-                                   {"max_error_mm", t->error[i].max_mm},
-                                   {"mean_change_mm", t->change[i].mean_mm},
-                                   {"max_change_mm", t->change[i].max_mm}};
-    json_columns(o, numbers, sizeof numbers / sizeof *numbers);
-    return o;
-}
-
-json_t *study_json(const study_table *t)
-{
-    json_t *rows = json_array();
-    for (int i = 0; i < t->count; i++) json_array_append_new(rows, row_json(t, i));
-    json_t *o = json_pack("{ss ss ss so}", "case", t->task->patient->name, "plan", t->plan_name, "reference",
-                          study_rungs[study_reference].name, "runs", rows);
-    json_t *tubes = json_array();
-    for (int i = 0; i < STUDY_TUBES; i++) {
-        const study_tube *row = &t->tube[i];
-        json_array_append_new(tubes, json_pack("{si sb so sI si so so}", "cells", row->cells, "averaged", row->average,
-                                               "poisson", json_number(row->poisson), "unknowns",
-                                               (json_int_t)row->unknowns, "iterations", row->iterations, "wall_s",
-                                               json_number(row->wall_s), "error_mm", json_number(row->error_mm)));
-    }
-    json_object_set_new(o, "tubes", tubes);
-    json_object_set_new(o, "reference_error_mm", json_number(t->reference_error_mm));
-    json_object_set_new(o, "order", json_number(t->order));
-    json_object_set_new(o, "plain_slope", json_number(t->plain_slope));
-    json_object_set_new(o, "average_slope", json_number(t->average_slope));
-    return o;
-}
-
-bool study_write(const study_table *t, const char *folder, err *e)
+bool study_write(const study_table *t, const json_t *record, const char *folder, err *e)
 {
     static const char *const names[2] = {"study.md", "study.csv"};
+    char path[FIELD_PATH_SIZE + 32];
     for (int k = 0; k < 2; k++) {
-        char path[FIELD_PATH_SIZE + 32];
         whole_file f;
         snprintf(path, sizeof path, "%s/%s", folder, names[k]);
         if (!whole_file_open(path, &f, e)) return false;
-        if (k) {
-            json_t *all = study_json(t);
-            json_table_csv(json_object_get(all, "runs"), f.stream);
-            json_decref(all);
-        } else {
+        if (k)
+            json_table_csv(json_object_get(record, "runs"), f.stream);
+        else
             study_print(t, f.stream);
-        }
         if (!whole_file_close(&f, e)) return false;
     }
-    return study_plot(t, folder, e);
+    snprintf(path, sizeof path, "%s/study.json", folder);
+    return json_file_write(record, path, e) && study_plot(t, folder, e);
 }

@@ -128,12 +128,13 @@ void study_table_free(study_table *t);
  * percentile, else by the mean. */
 int study_soonest(const study_table *t, double limit_mm, bool p95, double own_mm);
 
-/* study.md, study.csv, error_time.png/.svg, error_size.png/.svg in the folder. */
-bool study_write(const study_table *t, const char *folder, err *e) MUST_CHECK;
+const char *study_group_name(int group);
+/* study.json (the record), study.md, study.csv, error_time.png/.svg, error_size.png/.svg in the folder. */
+bool study_write(const study_table *t, const json_t *record, const char *folder, err *e) MUST_CHECK;
 void study_print(const study_table *t, FILE *out);
-json_t *study_json(const study_table *t);
 bool study_plot(const study_table *t, const char *folder, err *e) MUST_CHECK;
 
 /* gnathos study --ratios: the standard moves. Prints the table or, if record is not NULL, sets it to a new object, and
- * writes ratios.md and ratios.csv. p: of the case's own mesh; the lips' edges are added to its landmarks. */
+ * writes ratios.json (the same), ratios.md and ratios.csv. p: of the case's own mesh; the lips' edges are added to its
+ * landmarks. */
 bool study_ratios(study_task *t, prepared *p, FILE *out, json_t **record, err *e) MUST_CHECK;

@@ -41,7 +41,6 @@ typedef struct face_compare {
 bool face_compare_make(const face_compare_input *in, face_compare *out, err *e) MUST_CHECK;
 void face_compare_free(face_compare *c); /* idempotent */
 
-json_t *face_compare_json(const face_compare_input *in, const face_compare *c);
 /* Actual minus predicted for landmark i of `predicted` (points, or rest_points), in the frame of the head: forward, up,
  * left. False where the actual face has no such landmark. */
 bool face_compare_landmark(const face_compare *c, const landmarks *predicted, int32_t i, double out[3]);

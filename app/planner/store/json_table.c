@@ -1,12 +1,4 @@
 #include "app/planner/store/json_table.h"
-#include <math.h>
-
-json_t *json_number(double x) { return isfinite(x) ? json_real(x) : json_null(); }
-
-void json_columns(json_t *object, const json_column *column, size_t count)
-{
-    for (size_t i = 0; i < count; i++) json_object_set_new(object, column[i].name, json_number(column[i].value));
-}
 
 static void print_quoted(const char *text, FILE *out)
 {
