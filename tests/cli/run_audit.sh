@@ -13,6 +13,11 @@ settings="--pair maxilla_advance_mm,mandible_advance_mm --spacing 5 --tolerance 
 cat "$work/table.txt"
 grep -q 'maxilla_advance_mm  *low' "$work/table.txt" || fail "no table of bounds"
 [ ! -e "$work/whole.journal" ] || fail "the journal stays after the end"
+/usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work/whole/audit.json"
+# shellcheck disable=SC2086
+"$gnathos" audit "$case" -o "$work/bones" $settings --geometry-only --no-pictures --json >"$work/bones.json"
+cmp "$work/bones.json" "$work/bones/audit.json" || fail "audit prints another record than it writes"
+/usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work/bones.json"
 
 seed=$(od -An -N2 -tu2 /dev/urandom | tr -d ' ')
 echo "seed $seed"

@@ -26,6 +26,10 @@ says 'tissue.element_mm' help case
 says 'limits.maxilla_advance_mm.stop' help case
 says 'maxilla_impaction_mm' help plan
 says 'porion' help landmarks
+says 'solve.contact.depth_mm' help outcome
+says 'plan.segments.<segment>.matrix' help outcome
+says 'limits[].remedy' help --record plan_audit
+says '"additionalProperties": false' help --schema check
 says 'no errors, 0 warnings' check .
 says 'no errors, 0 warnings' check case.json --plan plan.json
 says '"kind": "check"' check . --json
@@ -43,5 +47,14 @@ says 'no errors, 0 warnings' check ras.json
 
 "$gnathos" check -q . --json >"$work/stdout" 2>/dev/null # the meshes are turned now, the case is not
 [ $? -ne 0 ] && grep -q '"ok": false' "$work/stdout" || { echo "a wrong case must say so in JSON too"; failed=1; }
+"$gnathos" stress --only poisson/0.45 -o "$work/stress" --json >"$work/stress.json"
+cmp "$work/stress.json" "$work/stress/stress.json" || { echo "stress prints another record than it writes"; failed=1; }
+"$gnathos" ceph "$work/case" --json >"$work/ceph.json"
+/usr/bin/python3 "$here/check_record.py" "$gnathos" "$work/stdout" "$work/stress.json" "$work/ceph.json" || failed=1
+# every kind has its fields and its schema
+for kind in $("$gnathos" help records | sed -n 's/^  \([a-z_]*\) .*/\1/p'); do
+    says '"$schema"' help --schema "$kind"
+    says 'the text "'"$kind"'"' help --record "$kind"
+done
 [ $failed -eq 0 ] && echo "all accepted as expected"
 exit $failed

@@ -7,19 +7,22 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "FAIL: $*" >&2; exit 1; }
 if [ "$case" = --class ]; then
-    "$gnathos" new "$work/case" --norm --class "$4" >"$work/new.txt"
+    "$gnathos" new "$work/case" --norm --class "$4" --json >"$work/made.json"
     pictures=
 else
     [ -f "$case/skin.ply" ] || { echo "skipped: $case is not here"; exit 77; }
     "$gnathos" import --skin "$case/skin.ply" --skull "$case/skull.ply" --mandible "$case/mandible.ply" \
-        --landmarks "$case/landmarks.mrk.json" -o "$work/case" -q >"$work/import.txt"
+        --landmarks "$case/landmarks.mrk.json" -o "$work/case" -q --json >"$work/made.json"
     pictures=--no-pictures
 fi
-"$gnathos" check -q "$work/case" --plan "$plan" >/dev/null
+"$gnathos" check -q "$work/case" --plan "$plan" --json >"$work/check.json"
+# what is printed is the record in the folder
 # shellcheck disable=SC2086
-"$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" $pictures >"$work/predict.txt"
-cat "$work/predict.txt"
-"$gnathos" audit "$work/case" --plan "$plan" --json -q >"$work/audit.json" # feasible: status 0
+"$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" $pictures --json >"$work/predict.json"
+cmp "$work/predict.json" "$work/out/outcome.json" || fail "predict prints another record than it writes"
+"$gnathos" audit "$work/case" --plan "$plan" -o "$work/judged" --json -q >"$work/audit.json" # feasible: status 0
+cmp "$work/audit.json" "$work/judged/audit.json" || fail "audit prints another record than it writes"
+"$gnathos" prepare "$work/case" --json >"$work/prepare.json"
 /usr/bin/python3 - "$work" <<'PY'
 import json, sys
 audit = json.load(open(sys.argv[1] + "/audit.json"))
@@ -59,6 +62,7 @@ PY
 [ -n "$pictures" ] || [ -s "$work/out/pictures/overview.png" ] || fail "no pictures"
 # prepared once: the second plan of the case reuses it
 "$gnathos" predict "$work/case" --plan "$plan" -o "$work/again" --no-pictures >"$work/again.txt"
+cat "$work/again.txt"
 grep -q reused "$work/again.txt" || fail "the prepared case was not reused"
 cmp "$work/out/skin_after.ply" "$work/again/skin_after.ply" || fail "the same plan gave another face"
 cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave another tissue"
@@ -66,7 +70,11 @@ cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave 
 "$gnathos" ceph "$work/out" >"$work/ceph.txt" && grep -q planned "$work/ceph.txt" || fail "no cephalometry"
 "$gnathos" compare "$work/out" "$work/again" --json >"$work/same.json"
 "$gnathos" compare "$work/out" "$work/out/skin_before.ply" --json >"$work/before.json"
-"$gnathos" compare "$work/out" "$work/again" -o "$work/compared" $pictures >/dev/null
+"$gnathos" compare "$work/out" "$work/again" -o "$work/compared" $pictures --json >"$work/compared.json"
+cmp "$work/compared.json" "$work/compared/comparison.json" || fail "compare prints another record than it writes"
+"$gnathos" ceph "$work/out" --json >"$work/ceph.json"
+"$gnathos" export "$work/out" --format obj -o "$work/shapes" --json >"$work/export.json"
+/usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work"/*.json
 [ -s "$work/compared/comparison.vtp" ] && [ -s "$work/compared/regions.csv" ] || fail "compare wrote no files"
 /usr/bin/python3 - "$work" <<'PY'
 import json, os, sys
@@ -90,6 +98,10 @@ if [ -z "$pictures" ]; then
     for name in bones_wipe_az30_el-10 contour signed_az30_el-10 stretch_az30_el-10 tracing skin_both_turn_002; do
         cmp "$work/shown1/$name.png" "$work/shown2/$name.png" || fail "$name.png depends on the threads, or is missing"
     done
+    "$gnathos" render "$work/out" -o "$work/shown" --size 160x120 --show skin --json >"$work/render.json"
+    "$gnathos" cut "$work/case" -o "$work/cut" --json >"$work/cut.json"
+    cmp "$work/cut.json" "$work/cut/cut_report.json" || fail "cut prints another record than it writes"
+    /usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work/render.json" "$work/cut.json"
     [ -s "$work/compared/signed.png" ] || fail "compare drew no picture"
 fi
 # an output in use is not replaced unasked
