@@ -1,11 +1,15 @@
 #include "geometry/parallel.h"
 #include <omp.h>
 
-static int thread_count; /* 0: one per core */
+static _Atomic int thread_count; /* 0: one per core */
 
 void parallel_set_threads(int threads) { thread_count = threads; }
 
-int parallel_threads(void) { return thread_count > 0 ? thread_count : omp_get_num_procs(); }
+int parallel_threads(void)
+{
+    int asked = thread_count;
+    return asked > 0 ? asked : omp_get_num_procs();
+}
 
 int parallel_forbid(void)
 {

@@ -194,7 +194,7 @@ static void search_points(int64_t begin, int64_t end, void *context)
         }
         if (d > s->reach_mm) best = -1;
         s->out->tet[i] = best;
-        s->gap[i] = best < 0 ? -1 : d;
+        s->gap[i] = d;
         for (int a = 0; a < 4; a++) s->out->weight[4 * i + a] = best < 0 ? 0 : w[a];
     }
 }
