@@ -206,25 +206,30 @@ static bool read_journal(const char *path)
 }
 #endif
 
+static const char ply_header[] =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+
 const reader readers[] = {
-    {"case", "case.json", read_case},
-    {"plan", "plan.json", read_plan},
-    {"markups", "points.mrk.json", read_landmarks},
-    {"fcsv", "points.fcsv", read_landmarks},
-    {"planes", "planes.mrk.json", read_planes},
-    {"tfm", "move.tfm", read_transform},
-    {"stl", "mesh.stl", read_surface},
-    {"obj", "mesh.obj", read_surface},
-    {"gltf", "mesh.gltf", read_surface},
-    {"glb", "mesh.glb", read_surface},
-    {"nrrd", "volume.nrrd", read_volume},
-    {"nifti", "volume.nii", read_volume},
-    {"outcome", "outcome.json", read_outcome},
+    {"case", "case.json", read_case, NULL},
+    {"plan", "plan.json", read_plan, NULL},
+    {"markups", "points.mrk.json", read_landmarks, NULL},
+    {"fcsv", "points.fcsv", read_landmarks, NULL},
+    {"planes", "planes.mrk.json", read_planes, NULL},
+    {"tfm", "move.tfm", read_transform, NULL},
+    {"stl", "mesh.stl", read_surface, NULL},
+    {"obj", "mesh.obj", read_surface, NULL},
+    {"gltf", "mesh.gltf", read_surface, NULL},
+    {"glb", "mesh.glb", read_surface, NULL},
+    {"nrrd", "volume.nrrd", read_volume, NULL},
+    {"nifti", "volume.nii", read_volume, NULL},
+    {"outcome", "outcome.json", read_outcome, NULL},
 #if GNATHOS_WITH_CGAL
-    {"ply", "mesh.ply", read_surface},
-    {"off", "mesh.off", read_surface},
-    {"pack", "prepared.pack", read_pack},
-    {"journal", "run.journal", read_journal},
+    {"ply", "mesh.ply", read_surface, NULL},
+    {"ply_body", "body.ply", read_surface, ply_header},
+    {"off", "mesh.off", read_surface, NULL},
+    {"pack", "prepared.pack", read_pack, NULL},
+    {"journal", "run.journal", read_journal, NULL},
 #endif
 };
 const int reader_count = sizeof readers / sizeof *readers;
@@ -241,6 +246,7 @@ bool reader_feed(const reader *r, const uint8_t *bytes, size_t size)
     char path[512];
     snprintf(path, sizeof path, "%s/%s", folder, r->file);
     FILE *f = fopen(path, "wb");
-    if (!f || fwrite(bytes, 1, size, f) != size || fclose(f)) abort();
+    if (!f || (r->before && fputs(r->before, f) < 0)) abort();
+    if (fwrite(bytes, 1, size, f) != size || fclose(f)) abort();
     return r->read(path);
 }

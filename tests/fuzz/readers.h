@@ -9,6 +9,7 @@ typedef struct reader {
     const char *name; /* its corpus is the folder corpus/NAME */
     const char *file; /* the name its bytes take in the folder of work */
     bool (*read)(const char *path);
+    const char *before; /* stands in the file before the bytes; NULL: nothing */
 } reader;
 
 extern const reader readers[];

@@ -70,7 +70,7 @@ bool pack_read(const char *path, pack_file *out, err *e)
         pack_entry en = {0};
         ok = fread(en.name, 1, sizeof en.name, f) == sizeof en.name &&
              fread(&en.size, 1, sizeof en.size, f) == sizeof en.size && !en.name[sizeof en.name - 1] &&
-             en.size <= (uint64_t)(end - ftell(f));
+             ftell(f) <= end && en.size <= (uint64_t)(end - ftell(f));
         if (!ok) break;
         en.bytes = mem_alloc(en.size, 1);
         ok = fread(en.bytes, 1, en.size, f) == en.size;
