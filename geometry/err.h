@@ -6,6 +6,7 @@
  * result; our own bug -> assert, on in every build. Only app/ prints and exits. */
 #pragma once
 #include <stdbool.h>
+#include <stddef.h>
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -37,6 +38,9 @@ bool err_set(err *e, err_code code, const char *fmt, ...) PRINTF_LIKE(3, 4);
 bool err_at(err *e, err_code code, const char *path, int line, const char *field, const char *fmt, ...)
     PRINTF_LIKE(6, 7);
 /* Puts "prefix: " before the text of a filled err; returns false. */
+/* Writes each control byte of the text (size bytes in all) as \xNN, so that it is one line and does nothing to a
+ * terminal; what does not fit is cut off. */
+void err_printable(char *text, size_t size);
 bool err_prefix(err *e, const char *fmt, ...) PRINTF_LIKE(2, 3);
 
 #ifdef __cplusplus

@@ -78,6 +78,10 @@ void command_print_issues(const command_options *o, const issue_list *issues)
         if (one->level != ISSUE_ERROR) fprintf(stderr, "%s: ", issue_level_name(one->level));
         fprintf(stderr, "%s\n", one->text);
     }
+    for (int l = ISSUE_ERROR; l <= ISSUE_INFO; l++)
+        if (issues->left_out[l] && (l == ISSUE_ERROR || !o->quiet))
+            fprintf(stderr, "gnathos: and %d more of the kind \"%s\"\n", issues->left_out[l],
+                    issue_level_name((issue_level)l));
 }
 
 void command_progress_at(const command_options *o, const char *stage, double fraction)

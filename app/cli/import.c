@@ -43,7 +43,8 @@ static const struct argp_option options[] = {
      "none; "
      "several are separated by commas",
      3},
-    {"preset", KEY_PRESET, "NAME", 0, "dental-segmentator: the labels of that tool", 3},
+    {"preset", KEY_PRESET, "NAME", 0,
+     "dental-segmentator, totalsegmentator-craniofacial or toothfairy: the labels of that tool", 3},
     {"ct", KEY_CT, "FILE", 0, "Take the skin from this CT", 3},
     {"skin-hu", KEY_HU, "HU", 0, "Grey value of the skin's surface in the CT (-300)", 3},
     {"seal", KEY_SEAL, "MM", 0,
@@ -77,7 +78,10 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_LABELS: p->labels = arg; return 0;
     case KEY_PRESET: p->preset = arg; return 0;
     case KEY_CT: p->ct = arg; return 0;
-    case KEY_HU: p->skin_hu = number(arg, -1000, 3000, "skin-hu", state); return 0;
+    case KEY_HU:
+        p->skin_hu = number(arg, -1000, 30000, "skin-hu", state);
+        p->skin_hu_given = true;
+        return 0;
     case KEY_SEAL: p->seal_mm = number(arg, 0, 40, "seal", state); return 0;
     case KEY_EDGE: p->mesh.edge_mm = number(arg, 0.3, 10, "edge", state); return 0;
     case KEY_FRAME:

@@ -6,11 +6,10 @@
 #include "app/report/stills.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
+#include "geometry/input_file.h"
 #include <assert.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 __asm__(".section .rodata,\"a\",%progbits\n"
         ".global report_shell\n"
@@ -23,20 +22,16 @@ extern const char report_shell[];
 /* The file in a new array, or NULL. */
 static char *read_bytes(const char *path, size_t *size, err *e)
 {
-    struct stat info;
-    FILE *f = fopen(path, "rb");
-    char *bytes = NULL;
-    if (f && !fstat(fileno(f), &info) && info.st_size > 0) {
-        *size = (size_t)info.st_size;
-        bytes = NEW_ARRAY(char, *size);
-        if (fread(bytes, 1, *size, f) != *size) {
-            free(bytes);
-            bytes = NULL;
-        }
-    }
-    if (f) fclose(f);
-    if (!bytes) err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
-    return bytes;
+    int64_t bytes = 0;
+    FILE *f = input_file_open(path, INT32_MAX, &bytes, e);
+    if (!f) return NULL;
+    char *text = NEW_ARRAY(char, bytes);
+    *size = fread(text, 1, (size_t)bytes, f);
+    fclose(f);
+    if (*size == (size_t)bytes) return text;
+    free(text);
+    err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read to its end");
+    return NULL;
 }
 
 /* What follows "<" in the text of a script block could end it: "<" is written as JSON's own escape. */

@@ -3,10 +3,38 @@
 #include <stdio.h>
 #include <string.h>
 
-static void one_line(char *text)
+/* Bytes of a control character at c: C0 and DEL 1, C1 in UTF-8 2, else 0. */
+static size_t control_bytes(const unsigned char *c)
 {
-    for (char *c = text; *c; c++)
-        if (*c == '\n' || *c == '\r') *c = ' ';
+    if (*c < 0x20 || *c == 0x7F) return 1;
+    return c[0] == 0xC2 && c[1] >= 0x80 && c[1] <= 0x9F ? 2 : 0;
+}
+
+void err_printable(char *text, size_t size)
+{
+    static const char digit[] = "0123456789abcdef";
+    for (char *c = text; *c;) {
+        size_t count = control_bytes((unsigned char *)c);
+        if (!count) {
+            c++;
+            continue;
+        }
+        unsigned char byte[2] = {(unsigned char)c[0], (unsigned char)c[1]};
+        size_t rest = strlen(c + count), used = (size_t)(c - text) + 4 * count, room = size - 1;
+        if (used > room) {
+            *c = 0;
+            return;
+        }
+        if (rest > room - used) rest = room - used;
+        memmove(c + 4 * count, c + count, rest);
+        c[4 * count + rest] = 0;
+        for (size_t i = 0; i < count; i++) {
+            *c++ = '\\';
+            *c++ = 'x';
+            *c++ = digit[byte[i] >> 4];
+            *c++ = digit[byte[i] & 15];
+        }
+    }
 }
 
 bool err_set(err *e, err_code code, const char *fmt, ...)
@@ -17,7 +45,7 @@ bool err_set(err *e, err_code code, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(e->text, sizeof e->text, fmt, args);
     va_end(args);
-    one_line(e->text);
+    err_printable(e->text, sizeof e->text);
     return false;
 }
 
@@ -49,6 +77,6 @@ bool err_prefix(err *e, const char *fmt, ...)
     va_end(args);
     int n = snprintf(e->text, sizeof e->text, "%s: %s", prefix, text);
     if (n < 0) e->text[0] = 0;
-    one_line(e->text);
+    err_printable(e->text, sizeof e->text);
     return false;
 }

@@ -81,13 +81,20 @@ static void units_and_axes_are_changed_only_when_told(void **state)
 {
     (void)state;
     err e = {0};
-    /* the same box in RAS metres, without a tag */
-    FILE *f = fopen("metres.off", "wb");
-    fputs("OFF\n4 4 0\n-0.08 -0.1 -0.12\n0.08 -0.1 -0.12\n0 0.1 -0.12\n0 0 0.12\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n",
-          f);
-    fclose(f);
+    /* tetrahedra in RAS metres, without a tag */
+    static const struct {
+        const char *path;
+        double scale, up;
+    } body[] = {{"metres.off", 1, 0}, {"bone.off", 0.3, 0.03}, {"jaw.off", 0.25, -0.05}};
+    for (int i = 0; i < 3; i++) {
+        double s = body[i].scale, z = body[i].up;
+        FILE *f = fopen(body[i].path, "wb");
+        fprintf(f, "OFF\n4 4 0\n%g %g %g\n%g %g %g\n0 %g %g\n0 0 %g\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n", -0.08 * s,
+                -0.1 * s, z - 0.12 * s, 0.08 * s, -0.1 * s, z - 0.12 * s, 0.1 * s, z - 0.12 * s, z + 0.12 * s);
+        fclose(f);
+    }
     assert_int_equal(system("rm -rf made"), 0);
-    const char *rest = "--skull metres.off --mandible metres.off --frame ras -o made";
+    const char *rest = "--skull bone.off --mandible jaw.off --frame ras -o made";
     char line[256];
     snprintf(line, sizeof line, "--skin metres.off %s", rest);
     assert_int_equal(run(line), ERR_INPUT);
@@ -162,6 +169,186 @@ static void a_label_map_becomes_closed_surfaces(void **state)
     assert_int_not_equal(access("made/upper_teeth.ply", F_OK), 0); /* the file names none */
 }
 
+/* What import said, whole. */
+static bool said(const char *words)
+{
+    char text[8192];
+    FILE *f = fopen("import.err", "rb");
+    assert_non_null(f);
+    size_t n = fread(text, 1, sizeof text - 1, f);
+    fclose(f);
+    text[n] = 0;
+    return strstr(text, words) != NULL;
+}
+
+/* A label map of 40^3 voxels of 5 mm: boxes {label, low[3], high[3]} in mm from the middle; header: more lines of it.
+ */
+static void write_boxes(const char *path, const double (*box_)[7], int count, const char *header)
+{
+    enum { N = 40 };
+    err e = {0};
+    uint8_t *value = NEW_ARRAY(uint8_t, N * N * N);
+    for (int i = 0; i < N * N * N; i++) {
+        const double p[3] = {5.0 * (i % N) - 97.5, 5.0 * (i / N % N) - 97.5, 5.0 * (i / (N * N)) - 97.5};
+        for (int b = 0; b < count; b++) {
+            bool in = true;
+            for (int c = 0; c < 3; c++) in &= p[c] > box_[b][1 + c] && p[c] < box_[b][4 + c];
+            if (in) value[i] = (uint8_t)box_[b][0];
+        }
+    }
+    whole_file w;
+    assert_ok(whole_file_open(path, &w, &e));
+    fprintf(w.stream,
+            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 40 40 40\nencoding: raw\nspace: left-posterior-superior\n"
+            "space directions: (5,0,0) (0,5,0) (0,0,5)\nspace origin: (-97.5,-97.5,-97.5)\n%s\n",
+            header);
+    (void)!fwrite(value, 1, N * N * N, w.stream);
+    assert_ok(whole_file_close(&w, &e));
+    free(value);
+}
+
+/* skull, mandible right and left, upper and lower teeth */
+static const double head_boxes[5][7] = {{1, -50, -60, 10, 50, 60, 80},
+                                        {2, -50, -60, -60, 0, 20, -20},
+                                        {3, 0, -60, -60, 50, 20, -20},
+                                        {4, -30, -75, 10, 30, -60, 25},
+                                        {5, -30, -75, -30, 30, -60, -15}};
+
+static int import_boxes(const char *labels)
+{
+    char line[512];
+    write_box("skin.stl", skin_low, skin_high, true);
+    assert_int_equal(system("rm -rf made"), 0);
+    snprintf(line, sizeof line, "%s --skin skin.stl --edge 5 --json -o made", labels);
+    return run(line);
+}
+
+static double made_mm3(const char *part)
+{
+    err e = {0};
+    json_file out;
+    assert_ok(json_file_read("import.out", &out, &e));
+    double mm3 = number(out.root, part, "label_mm3");
+    json_file_free(&out);
+    return mm3;
+}
+
+static void all_segments_of_a_name_make_the_part(void **state)
+{
+    (void)state;
+    const double half = 50 * 80 * 40;
+    write_boxes("two.seg.nrrd", head_boxes, 3,
+                "Segment0_Name:=Upper Skull\nSegment0_LabelValue:=1\nSegment1_Name:=Mandible\nSegment1_LabelValue:=2\n"
+                "Segment2_Name:=mandible\nSegment2_LabelValue:=3\n");
+    assert_int_equal(import_boxes("--labels two.seg.nrrd --preset dental-segmentator"), 0);
+    assert_near(made_mm3("mandible"), 2 * half, 1);
+    assert_int_equal(import_boxes("--labels two.seg.nrrd --skull \"upper skull\" --mandible Mandible"), 0);
+    assert_near(made_mm3("mandible"), 2 * half, 1);
+}
+
+static void gaps_in_the_numbering_lose_no_segment(void **state)
+{
+    (void)state;
+    write_boxes("gaps.seg.nrrd", head_boxes, 3,
+                "Segment12_Name:=Mandible\nSegment12_LabelValue:=3\nSegment3_Name:=Upper Skull\n"
+                "Segment3_LabelValue:=1\nSegment7_Name:=Mandible\nSegment7_LabelValue:=2\n");
+    assert_int_equal(import_boxes("--labels gaps.seg.nrrd --preset dental-segmentator"), 0);
+    assert_near(made_mm3("mandible"), 2 * 50 * 80 * 40, 1);
+    write_boxes("nameless.seg.nrrd", head_boxes, 3,
+                "Segment0_Name:=Upper Skull\nSegment0_LabelValue:=1\nSegment1_LabelValue:=2\n");
+    assert_int_equal(import_boxes("--labels nameless.seg.nrrd --preset dental-segmentator"), ERR_INPUT);
+}
+
+static void a_label_makes_one_part_and_unused_ones_are_told(void **state)
+{
+    (void)state;
+    write_boxes("head5.nrrd", head_boxes, 5, "");
+    assert_int_equal(import_boxes("--labels head5.nrrd --skull 1 --mandible 2,3 --upper-teeth 4 --lower-teeth 4"),
+                     ERR_USAGE);
+    assert_true(said("the label \"4\" is named for the"));
+    assert_int_equal(import_boxes("--labels head5.nrrd --skull 1 --mandible 1,2"), ERR_USAGE);
+    assert_int_equal(import_boxes("--labels head5.nrrd --skull 1 --mandible 2,3,3 --upper-teeth 4"), 0);
+    json_file out;
+    err e = {0};
+    assert_ok(json_file_read("import.out", &out, &e));
+    const json_t *issues = json_object_get(out.root, "issues");
+    bool told = false;
+    for (size_t i = 0; i < json_array_size(issues); i++) {
+        const char *text = json_string_value(json_object_get(json_array_get(issues, i), "text"));
+        told |= strstr(text, "no part of the case: 5") != NULL;
+    }
+    assert_true(told);
+    json_file_free(&out);
+}
+
+static void presets_are_held_against_the_shapes(void **state)
+{
+    (void)state;
+    /* numbers of other tools: mandible 1, lower teeth 2, skull 3, upper teeth 7 */
+    static const double other[4][7] = {{3, -50, -60, 10, 50, 60, 80},
+                                       {1, -50, -60, -60, 50, 20, -20},
+                                       {7, -30, -75, 10, 30, -60, 25},
+                                       {2, -30, -75, -30, 30, -60, -15}};
+    write_boxes("other.nrrd", other, 4, "");
+    assert_int_equal(import_boxes("--labels other.nrrd --preset dental-segmentator"), ERR_GEOMETRY);
+    assert_true(said("another tool's"));
+    assert_int_equal(import_boxes("--labels other.nrrd --preset totalsegmentator-craniofacial"), 0);
+    assert_near(made_mm3("skull"), 100 * 120 * 70, 1);
+    static const double fairy[4][7] = {{2, -50, -60, 10, 50, 60, 80},
+                                       {1, -50, -60, -60, 50, 20, -20},
+                                       {11, -30, -75, 10, 30, -60, 25},
+                                       {41, -30, -75, -30, 30, -60, -15}};
+    write_boxes("fairy.nrrd", fairy, 4, "");
+    assert_int_equal(import_boxes("--labels fairy.nrrd --preset dental-segmentator"), ERR_GEOMETRY);
+    assert_int_equal(import_boxes("--labels fairy.nrrd --preset toothfairy"), 0);
+    assert_int_equal(import_boxes("--labels fairy.nrrd --preset nnunet"), ERR_USAGE);
+    /* teeth of the other arch */
+    assert_int_equal(import_boxes("--labels head5.nrrd --skull 1 --mandible 2,3 --upper-teeth 5 --lower-teeth 4"),
+                     ERR_GEOMETRY);
+}
+
+static void a_ct_that_is_not_in_hounsfield_units_is_no_skin(void **state)
+{
+    (void)state;
+    static const double air_and_head[1][7] = {{200, -80, -80, -80, 80, 80, 80}};
+    write_boxes("grey.nrrd", air_and_head, 1, "");
+    write_boxes("head5.nrrd", head_boxes, 5, "");
+    assert_int_equal(system("rm -rf made"), 0);
+    const char *rest = "--labels head5.nrrd --skull 1 --mandible 2,3 --ct grey.nrrd --edge 5 -o made";
+    assert_int_equal(run(rest), ERR_INPUT);
+    assert_true(said("Hounsfield"));
+    char line[256];
+    snprintf(line, sizeof line, "--skin-hu 100 %s", rest);
+    assert_int_equal(run(line), 0);
+    assert_int_equal(system("rm -rf made"), 0);
+    snprintf(line, sizeof line, "--skin-hu -500 %s", rest);
+    assert_int_equal(run(line), ERR_INPUT);
+}
+
+static void bones_that_are_there_twice_are_refused(void **state)
+{
+    (void)state;
+    err e = {0};
+    surface skull, jaw, both;
+    box(&skull, bone_low, bone_high, false);
+    box(&jaw, jaw_low, jaw_high, false);
+    both = surface_joined(&skull, &jaw);
+    assert_ok(mesh_write_surface(&both, "both.ply", &e));
+    assert_ok(mesh_write_surface(&jaw, "jaw.ply", &e));
+    assert_ok(mesh_write_surface(&skull, "bone.ply", &e));
+    write_box("skin.stl", skin_low, skin_high, true);
+    assert_int_equal(system("rm -rf made"), 0);
+    assert_int_equal(run("--skin skin.stl --skull both.ply --mandible jaw.ply -o made"), ERR_GEOMETRY);
+    assert_true(said("holds the mandible too"));
+    assert_int_equal(run("--skin skin.stl --skull bone.ply --mandible both.ply -o made"), ERR_GEOMETRY);
+    assert_int_equal(run("--skin skin.stl --skull jaw.ply --mandible bone.ply -o made"), ERR_GEOMETRY);
+    assert_true(said("above"));
+    assert_int_equal(run("--skin skin.stl --skull bone.ply --mandible jaw.ply -o made"), 0);
+    surface_free(&skull);
+    surface_free(&jaw);
+    surface_free(&both);
+}
+
 static void real_heads_are_accepted(void **state)
 {
     (void)state;
@@ -190,6 +377,12 @@ int main(void)
         cmocka_unit_test(an_open_skin_and_two_bones_become_a_case),
         cmocka_unit_test(units_and_axes_are_changed_only_when_told),
         cmocka_unit_test(a_label_map_becomes_closed_surfaces),
+        cmocka_unit_test(all_segments_of_a_name_make_the_part),
+        cmocka_unit_test(gaps_in_the_numbering_lose_no_segment),
+        cmocka_unit_test(a_label_makes_one_part_and_unused_ones_are_told),
+        cmocka_unit_test(presets_are_held_against_the_shapes),
+        cmocka_unit_test(a_ct_that_is_not_in_hounsfield_units_is_no_skin),
+        cmocka_unit_test(bones_that_are_there_twice_are_refused),
         cmocka_unit_test(real_heads_are_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,5 +19,8 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues);
 /* Bones against skin; needs what check_surfaces found. */
 void check_bones_inside(const case_file *c, const check_found *found, issue_list *issues);
 void check_landmarks(const case_file *c, check_found *found, issue_list *issues);
+/* The order of the landmarks, and that each lies on its own jaw; needs what check_surfaces found. */
+void check_order(const case_file *c, const check_found *found, issue_list *issues);
+void check_jaws(const case_file *c, const check_found *found, issue_list *issues);
 void check_planes(const case_file *c, issue_list *issues);
 void check_found_free(check_found *found);

@@ -165,6 +165,8 @@ void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
     check_set(c, &found->points, issues);
     check_frame(c, found, issues);
     check_sides(c, &found->points, issues);
+    check_order(c, found, issues);
+    check_jaws(c, found, issues);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)
         if (found->mesh[i].vertex_count && !found->wrong_size[i]) check_distance_to(c, found, (case_surface)i, issues);
 }

@@ -1,4 +1,5 @@
 #include "app/planner/patient/check.h"
+#include "app/planner/patient/check_parts.h"
 #include "geometry/nearest.h"
 #include "geometry/plane_file.h"
 #include "geometry/vec.h"
@@ -49,8 +50,6 @@ static void check_closed(const char *path, case_surface s, check_found *found, i
     else if (open)
         issue_add(issues, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
                   "the surface is open (%d edges); its holes will be closed", open);
-    if (!open && !crowded && surface_volume(&found->mesh[s]) < 0)
-        issue_add(issues, ISSUE_INFO, ERR_NONE, path, 0, NULL, "the triangles face inwards; they will be turned");
 }
 
 void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
@@ -78,6 +77,9 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
         if (i == CASE_SKIN) found->wrong_size[i] = is_wrong_size(c, found->diagonal_mm[i], issues);
         check_closed(path, (case_surface)i, found, issues);
     }
+    const char *name[CASE_SURFACE_COUNT];
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) name[i] = c->surface[i];
+    check_parts(found->mesh, name, issues);
 }
 
 /* True if p lies outside the skin: for a closed skin by the crossings of rays; for an open one by the side of the

@@ -1,4 +1,5 @@
 #include "app/planner/patient/import.h"
+#include "app/planner/patient/check_parts.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
 #include "geometry/mem.h"
@@ -124,6 +125,25 @@ static bool check_together(const import_result *r, err *e)
     return true;
 }
 
+/* What labels and names say is not believed: a wrong part is told here, not after a prediction. */
+static bool check_against_each_other(const import_result *r, issue_list *notes, err *e)
+{
+    const char *name[CASE_SURFACE_COUNT];
+    surface mesh[CASE_SURFACE_COUNT]; /* borrowed */
+    issue_list found = {0};
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
+        name[i] = r->part[i].source;
+        mesh[i] = r->part[i].mesh;
+    }
+    check_parts(mesh, name, &found);
+    for (int i = 0; i < found.count; i++)
+        if (found.item[i].level != ISSUE_ERROR)
+            issue_add(notes, found.item[i].level, ERR_NONE, found.item[i].file, 0, NULL, "%s", found.item[i].text);
+    bool good = issue_none_is_error(&found, e);
+    issue_list_free(&found);
+    return good;
+}
+
 static bool check_complete(const import_result *r, err *e)
 {
     for (int i = CASE_SKIN; i <= CASE_MANDIBLE; i++)
@@ -175,7 +195,7 @@ bool import_read(const import_params *p, const task *watch, import_result *out, 
         good = measure(&r.part[i], e);
         if (good && task_interrupted(watch)) good = err_set(e, ERR_INTERRUPTED, "interrupted");
     }
-    if (good) good = check_size(p, &r, e) && check_together(&r, e);
+    if (good) good = check_size(p, &r, e) && check_together(&r, e) && check_against_each_other(&r, notes, e);
     if (good && p->landmarks) {
         good = landmarks_read(p->landmarks, &r.points, &r.points_skipped, e);
         r.has_points = good;

@@ -10,9 +10,10 @@ typedef struct import_params {
      * file names none. NULL: none, or what the preset says. */
     const char *from[CASE_SURFACE_COUNT];
     const char *labels;        /* label map, or NULL */
-    const char *preset;        /* NULL or "dental-segmentator" */
+    const char *preset;        /* NULL, or one of label_preset_names */
     const char *ct;            /* the skin is the head in this CT, or NULL */
     double skin_hu;            /* above: not air */
+    bool skin_hu_given;        /* by the user, who then knows the scale of the values */
     double seal_mm;            /* openings of the skin narrower than this are sealed, with the airways behind them */
     label_surface_params mesh; /* its least_mm3 holds for islands of voxels too */
     const char *landmarks;

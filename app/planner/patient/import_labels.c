@@ -1,111 +1,11 @@
 /* Parts of a case from a label map, and the skin from a CT. */
 #include "app/planner/patient/import.h"
+#include "app/planner/patient/label_choice.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-
-/* Label numbers and the names that the same labels bear in Slicer's segmentations. */
-typedef struct preset_row {
-    case_surface part;
-    int32_t label;
-    const char *names[3];
-    bool required;
-} preset_row;
-
-static const preset_row dental_segmentator[] = {
-    {CASE_SKULL, 1, {"Upper Skull", "Maxilla & Upper Skull", "Maxilla"}, true},
-    {CASE_MANDIBLE, 2, {"Mandible"}, true},
-    {CASE_UPPER_TEETH, 3, {"Upper Teeth"}, false},
-    {CASE_LOWER_TEETH, 4, {"Lower Teeth"}, false},
-};
-enum { PRESET_ROWS = sizeof dental_segmentator / sizeof *dental_segmentator };
-
-/* The labels of the file in words, for messages. */
-static void list_labels(const volume *v, char *text, size_t size)
-{
-    size_t n = 0;
-    text[0] = 0;
-    for (int32_t i = 0; i < v->segment_count && n + 70 < size; i++)
-        n += (size_t)snprintf(text + n, size - n, "%s\"%s\"", i ? ", " : "", v->segment[i].name);
-    if (v->segment_count) return;
-    uint8_t *seen = NEW_ARRAY(uint8_t, 65536);
-    int64_t voxels = (int64_t)v->layers * v->size[0] * v->size[1] * v->size[2];
-    for (int64_t i = 0; i < voxels; i++) seen[v->value[i] + 32768] = 1;
-    for (int k = 0; k < 65536 && n + 16 < size; k++)
-        if (seen[k] && k != 32768) n += (size_t)snprintf(text + n, size - n, "%s%d", n ? ", " : "", k - 32768);
-    free(seen);
-}
-
-static const volume_segment *find_segment(const volume *v, const char *name)
-{
-    for (int32_t i = 0; i < v->segment_count; i++)
-        if (!strcasecmp(v->segment[i].name, name)) return v->segment + i;
-    return NULL;
-}
-
-/* Adds one label, a name or, where the file names none, a number. */
-static bool add_label(const volume *v, const char *path, const char *word, mask *m, err *e)
-{
-    char known[700], *end;
-    const volume_segment *s = find_segment(v, word);
-    long number = strtol(word, &end, 10);
-    bool is_number = *word && !*end && number > INT16_MIN && number <= INT16_MAX;
-    if (s)
-        mask_add_label(m, v, s->label, s->layer);
-    else if (is_number && number && !v->segment_count)
-        mask_add_label(m, v, (int32_t)number, 0);
-    else {
-        list_labels(v, known, sizeof known);
-        return err_at(e, ERR_INPUT, path, 0, NULL, "has no label \"%s\"; choose by %s: %s", word,
-                      v->segment_count ? "name" : "number", known);
-    }
-    if (mask_count(m)) return true;
-    list_labels(v, known, sizeof known);
-    return err_at(e, ERR_INPUT, path, 0, NULL, "the label \"%s\" has no voxels; labels are %s", word, known);
-}
-
-static bool add_words(const volume *v, const char *path, const char *words, mask *m, err *e)
-{
-    char *copy = mem_text(words), *rest = copy;
-    bool good = true;
-    while (good && rest) {
-        char *word = strsep(&rest, ",");
-        word += strspn(word, " ");
-        for (size_t n = strlen(word); n && word[n - 1] == ' '; n--) word[n - 1] = 0;
-        mask one = mask_new(m->size);
-        good = add_label(v, path, word, &one, e);
-        for (int64_t i = 0; good && i < mask_voxels(m); i++) m->on[i] |= one.on[i];
-        mask_free(&one);
-    }
-    free(copy);
-    return good;
-}
-
-/* Fills *m by the preset; leaves it empty where the file lacks an optional label. */
-static bool add_preset(const volume *v, const char *path, case_surface part, mask *m, err *e)
-{
-    for (int i = 0; i < PRESET_ROWS; i++) {
-        const preset_row *row = &dental_segmentator[i];
-        if (row->part != part) continue;
-        const volume_segment *s = NULL;
-        for (int k = 0; k < 3 && !s && row->names[k]; k++) s = find_segment(v, row->names[k]);
-        if (s)
-            mask_add_label(m, v, s->label, s->layer);
-        else if (!v->segment_count)
-            mask_add_label(m, v, row->label, 0);
-        if (mask_count(m) || !row->required) return true;
-        char known[700];
-        list_labels(v, known, sizeof known);
-        return err_at(e, ERR_INPUT, path, 0, NULL,
-                      "lacks the label of the %s that dental-segmentator makes (%d, \"%s\"); "
-                      "it has %s",
-                      case_surface_name(part), row->label, row->names[0], known);
-    }
-    return true;
-}
 
 static double voxel_mm3(const volume *v)
 {
@@ -137,20 +37,30 @@ static bool mesh_skin(const import_params *p, const task *watch, const volume *g
     return good;
 }
 
-static bool read_masks(const import_params *p, const volume *v, mask *m, import_result *out, err *e)
+static bool choose_labels(const import_params *p, const volume *v, import_result *out, label_choice *c, err *e)
 {
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
         import_part *part = &out->part[i];
         if (part->mesh.vertex_count) continue; /* came from a mesh file */
         if (p->from[i]) {
-            if (!add_words(v, p->labels, p->from[i], &m[i], e)) return false;
+            if (!label_choose_words(v, p->labels, (case_surface)i, p->from[i], c, e)) return false;
             snprintf(part->source, sizeof part->source, "%s, label %s", p->labels, p->from[i]);
-        } else if (p->preset) {
-            if (!add_preset(v, p->labels, (case_surface)i, &m[i], e)) return false;
+        } else if (p->preset && !(i == CASE_SKIN && p->ct)) {
+            if (!label_choose_preset(v, p->labels, p->preset, (case_surface)i, c, e)) return false;
             snprintf(part->source, sizeof part->source, "%s, %s", p->labels, p->preset);
         }
     }
     return true;
+}
+
+/* Nothing that is in the file vanishes without a word. */
+static void note_unused(const import_params *p, const volume *v, const label_choice *c, issue_list *notes)
+{
+    char text[400];
+    int count = label_choice_unused(c, v, text, sizeof text);
+    if (count)
+        issue_add(notes, p->preset ? ISSUE_WARNING : ISSUE_INFO, ERR_NONE, p->labels, 0, NULL,
+                  "%d label%s make%s no part of the case: %s", count, count > 1 ? "s" : "", count > 1 ? "" : "s", text);
 }
 
 /* Drops islands, fills what is enclosed and belongs to no other part. */
@@ -199,13 +109,15 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
 {
     volume v;
     mask m[CASE_SURFACE_COUNT];
-    if (p->preset && strcmp(p->preset, "dental-segmentator"))
-        return err_set(e, ERR_USAGE, "unknown preset \"%s\"; known is dental-segmentator", p->preset);
+    label_choice choice = {0};
+    if (p->preset && !label_preset_check(p->preset, e)) return false;
     task_progress(watch, "labels", -1);
     if (!volume_read(p->labels, &v, e)) return false;
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) m[i] = mask_new(v.size);
-    bool good = read_masks(p, &v, m, out, e);
+    bool good = choose_labels(p, &v, out, &choice, e);
     if (good) {
+        for (int i = 0; i < CASE_SURFACE_COUNT; i++) label_choice_mask(&choice, &v, (case_surface)i, &m[i]);
+        note_unused(p, &v, &choice, notes);
         clean_bones(p, &v, m, out, notes);
         out->contacts = jaw_contacts(m);
         if (out->contacts)
@@ -222,8 +134,35 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
         good = mesh_skin(p, watch, &v, &m[CASE_SKIN], &out->part[CASE_SKIN], e);
     }
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) mask_free(&m[i]);
+    label_choice_free(&choice);
     volume_free(&v);
     return good;
+}
+
+/* Around a head there is air, at -1000 HU; scanners that count from 0 or 1024 below say other numbers. */
+static bool check_grey_values(const import_params *p, const volume *v, err *e)
+{
+    static const double air_hu = -700, least_share = 0.001;
+    int64_t voxels = (int64_t)v->size[0] * v->size[1] * v->size[2], air = 0, outside = 0;
+    int16_t low = INT16_MAX, high = INT16_MIN;
+    for (int64_t i = 0; i < voxels; i++) {
+        int16_t x = v->value[i];
+        air += x <= air_hu;
+        outside += x <= p->skin_hu;
+        if (x < low) low = x;
+        if (x > high) high = x;
+    }
+    if ((double)outside < least_share * (double)voxels)
+        return err_at(e, ERR_INPUT, p->ct, 0, NULL,
+                      "all voxels (%d to %d) lie above the %g HU of --skin-hu: the values may not be Hounsfield units; "
+                      "name the grey value of the skin's surface with --skin-hu",
+                      low, high, p->skin_hu);
+    if (!p->skin_hu_given && (double)air < least_share * (double)voxels)
+        return err_at(e, ERR_INPUT, p->ct, 0, NULL,
+                      "no voxel is near -1000 HU, as air is (values are %d to %d): the values may not be Hounsfield "
+                      "units; name the grey value of the skin's surface with --skin-hu",
+                      low, high);
+    return true;
 }
 
 static bool skin_of_ct(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
@@ -233,6 +172,10 @@ static bool skin_of_ct(const import_params *p, const task *watch, import_result 
     if (part->mesh.vertex_count) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     task_progress(watch, "ct", -1);
     if (!volume_read(p->ct, &v, e)) return false;
+    if (!check_grey_values(p, &v, e)) {
+        volume_free(&v);
+        return false;
+    }
     mask head = mask_new(v.size);
     mask_add_above(&head, &v, p->skin_hu);
     snprintf(part->source, sizeof part->source, "%s, above %g HU", p->ct, p->skin_hu);

@@ -1,6 +1,6 @@
 #include "app/planner/store/content_hash.h"
 #include "geometry/mem.h"
-#include <errno.h>
+#include "geometry/input_file.h"
 #include <nettle/sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,8 +38,8 @@ bool content_hash_file(content_hash *h, const char *name, const char *path, err 
 {
     content_hash_text(h, "file", name);
     if (!path[0]) return true;
-    FILE *f = fopen(path, "rb");
-    if (!f) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be opened: %s", strerror(errno));
+    FILE *f = input_file_open(path, INT64_MAX, NULL, e);
+    if (!f) return false;
     char block[65536];
     for (size_t n; (n = fread(block, 1, sizeof block, f)) > 0;) content_hash_bytes(h, block, n);
     bool failed = ferror(f);

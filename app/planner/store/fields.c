@@ -14,6 +14,7 @@ enum { POINTER_SIZE = 256, NAMES_MAX = 128 };
 void fields_issue(const json_file *f, const char *pointer, issue_list *issues, const char *fmt, ...)
 {
     char name[POINTER_SIZE], text[1024];
+    if (issue_leave_out(issues, ISSUE_ERROR)) return; /* before its line is looked for */
     va_list args;
     va_start(args, fmt);
     vsnprintf(text, sizeof text, fmt, args);
@@ -116,13 +117,15 @@ static void read_file(const json_file *f, const json_t *v, const char *pointer, 
     struct stat info;
     int n = snprintf(path, sizeof path, "%.*s%s", folder, f->path, name);
     if (n < 0 || n >= FIELD_PATH_SIZE)
-        fields_issue(f, pointer, issues, "is a path of more than %d bytes", n);
+        fields_issue(f, pointer, issues, "is a path of %d bytes; at most %d are read", n, FIELD_PATH_SIZE - 1);
     else if (!*name)
         fields_issue(f, pointer, issues, "is empty; must be the name of a file");
     else if (stat(path, &info))
         fields_issue(f, pointer, issues, "%s: %s", path, strerror(errno));
     else if (S_ISDIR(info.st_mode))
         fields_issue(f, pointer, issues, "%s is a folder; must be a file", path);
+    else if (!S_ISREG(info.st_mode))
+        fields_issue(f, pointer, issues, "%s is not a regular file", path);
     else if (access(path, R_OK))
         fields_issue(f, pointer, issues, "%s: %s", path, strerror(errno));
     else

@@ -7,17 +7,35 @@
 
 static void append(issue_list *l, issue one)
 {
+    l->kept[one.level]++;
     l->item = GROW_ARRAY(issue, l->item, l->count + 1);
     l->item[l->count++] = one;
 }
 
-static char *copy_or_null(const char *text) { return text && *text ? mem_text(text) : NULL; }
+bool issue_leave_out(issue_list *l, issue_level level)
+{
+    bool full = l->kept[level] >= ISSUES_MOST;
+    l->left_out[level] += full;
+    return full;
+}
+
+static char *printable(const char *text)
+{
+    size_t size = 4 * strlen(text) + 1;
+    char *own = mem_alloc(size, 1);
+    memcpy(own, text, strlen(text));
+    err_printable(own, size);
+    return own;
+}
+
+static char *copy_or_null(const char *text) { return text && *text ? printable(text) : NULL; }
 
 void issue_add(issue_list *l, issue_level level, err_code code, const char *file, int line, const char *field,
                const char *fmt, ...)
 {
     char text[1024];
     va_list args;
+    if (issue_leave_out(l, level)) return;
     va_start(args, fmt);
     vsnprintf(text, sizeof text, fmt, args);
     va_end(args);
@@ -26,15 +44,17 @@ void issue_add(issue_list *l, issue_level level, err_code code, const char *file
                       .line = line,
                       .file = copy_or_null(file),
                       .field = copy_or_null(field),
-                      .text = mem_text(text)});
+                      .text = printable(text)});
 }
 
 void issue_add_err(issue_list *l, issue_level level, const err *e, const char *file)
 {
     const char *text = e->text;
-    size_t n = file ? strlen(file) : 0;
+    if (issue_leave_out(l, level)) return;
+    char *shown = copy_or_null(file); /* as the err has it */
+    size_t n = shown ? strlen(shown) : 0;
     int line = 0;
-    if (n && !strncmp(text, file, n) && text[n] == ':') {
+    if (n && !strncmp(text, shown, n) && text[n] == ':') {
         text += n + 1;
         char *end;
         long number = strtol(text, &end, 10);
@@ -44,8 +64,7 @@ void issue_add_err(issue_list *l, issue_level level, const err *e, const char *f
         }
         text += strspn(text, " ");
     }
-    append(l,
-           (issue){.level = level, .code = e->code, .line = line, .file = copy_or_null(file), .text = mem_text(text)});
+    append(l, (issue){.level = level, .code = e->code, .line = line, .file = shown, .text = printable(text)});
 }
 
 void issue_sort_by_line(issue_list *l, int from)
@@ -58,12 +77,7 @@ void issue_sort_by_line(issue_list *l, int from)
     }
 }
 
-int issue_count(const issue_list *l, issue_level level)
-{
-    int n = 0;
-    for (int i = 0; i < l->count; i++) n += l->item[i].level == level;
-    return n;
-}
+int issue_count(const issue_list *l, issue_level level) { return l->kept[level] + l->left_out[level]; }
 
 bool issue_none_is_error(const issue_list *l, err *e)
 {

@@ -2,6 +2,8 @@
 #pragma once
 #include "geometry/err.h"
 
+/* Control bytes in names and texts are kept as \xNN, so that a message is one line whatever it quotes. */
+
 typedef enum issue_level { ISSUE_ERROR, ISSUE_WARNING, ISSUE_INFO } issue_level;
 
 typedef struct issue {
@@ -12,9 +14,12 @@ typedef struct issue {
     char *text;
 } issue;
 
+enum { ISSUES_MOST = 100 }; /* of a level that are kept and told; the others are counted */
+
 typedef struct issue_list {
-    int count;
+    int count; /* kept */
     issue *item;
+    int kept[3], left_out[3]; /* by level */
 } issue_list;
 
 void issue_add(issue_list *l, issue_level level, err_code code, const char *file, int line, const char *field,
@@ -23,6 +28,9 @@ void issue_add(issue_list *l, issue_level level, err_code code, const char *file
 void issue_add_err(issue_list *l, issue_level level, const err *e, const char *file);
 /* Orders the issues from number `from` on by line; equals stay in order. */
 void issue_sort_by_line(issue_list *l, int from);
+/* True, and one more is counted as left out, where as many of the level are kept as are told. */
+bool issue_leave_out(issue_list *l, issue_level level);
+/* Kept and left out. */
 int issue_count(const issue_list *l, issue_level level);
 /* True if no issue is an error; else fills e with the first one. */
 bool issue_none_is_error(const issue_list *l, err *e) MUST_CHECK;

@@ -1,5 +1,6 @@
 #include "app/planner/store/pack_file.h"
 #include "app/planner/store/content_hash.h"
+#include "geometry/input_file.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <stdio.h>
@@ -56,7 +57,8 @@ bool pack_write(const pack_file *p, const char *path, err *e)
 
 bool pack_read(const char *path, pack_file *out, err *e)
 {
-    FILE *f = fopen(path, "rb");
+    err unreadable = {0};
+    FILE *f = input_file_open(path, INT64_MAX, NULL, &unreadable);
     char start[sizeof magic], sum[HASH_TEXT_SIZE], stored[HASH_TEXT_SIZE];
     pack_file p = {0};
     content_hash *h = content_hash_start();

@@ -1,4 +1,5 @@
 #include "geometry/src/files/fcsv.h"
+#include "geometry/input_file.h"
 #include "geometry/mem.h"
 #include <errno.h>
 #include <math.h>
@@ -121,8 +122,8 @@ static bool read_row(char *text, const char *path, int line, int system, const c
 
 bool fcsv_read(const char *path, fcsv_file *out, err *e)
 {
-    FILE *in = fopen(path, "rb");
-    if (!in) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
+    FILE *in = input_file_open_text(path, e);
+    if (!in) return false;
     fcsv_file f = {0};
     columns at = {.x = 1, .y = 2, .z = 3, .label = 11};
     char *text = NULL;

@@ -1,16 +1,13 @@
 /* jansson gives no positions of parsed values, so a place is found, only when a message needs it, by walking
  * the text again along the pointer. The text was parsed before, so the walk can rely on its syntax. */
 #include "geometry/json_file.h"
+#include "geometry/input_file.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
-#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-
-enum { MAX_BYTES = 64 << 20 };
 
 void json_file_free(json_file *f)
 {
@@ -42,17 +39,10 @@ bool json_file_parse(const char *text, size_t size, const char *path, json_file 
 
 bool json_file_read(const char *path, json_file *out, err *e)
 {
-    struct stat info;
-    if (stat(path, &info)) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
-    if (!S_ISREG(info.st_mode))
-        return err_at(e, ERR_INPUT, path, 0, NULL, "is %s, not a file",
-                      S_ISDIR(info.st_mode) ? "a folder" : "a device");
-    if (info.st_size > MAX_BYTES)
-        return err_at(e, ERR_INPUT, path, 0, NULL, "has %lld bytes; at most %d are read", (long long)info.st_size,
-                      MAX_BYTES);
-    FILE *in = fopen(path, "rb");
-    if (!in) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
-    size_t want = (size_t)info.st_size;
+    int64_t bytes = 0;
+    FILE *in = input_file_open(path, INPUT_TEXT_BYTES, &bytes, e);
+    if (!in) return false;
+    size_t want = (size_t)bytes;
     char *text = mem_alloc(want + 1, 1);
     size_t got = fread(text, 1, want, in);
     fclose(in);

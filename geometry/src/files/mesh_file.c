@@ -1,14 +1,13 @@
 #include "geometry/mesh_file.h"
+#include "geometry/input_file.h"
 #include "geometry/mem.h"
 #include "geometry/src/files/file_name.h"
 #include "geometry/src/files/read_mesh.h"
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef enum mesh_format { FORMAT_PLY, FORMAT_OFF, FORMAT_STL, FORMAT_OBJ, FORMAT_GLTF } mesh_format;
 
@@ -31,12 +30,8 @@ static bool find_format(const char *path, mesh_format *format, err *e)
  * OBJ. */
 static bool find_space_tag(const char *path, mesh_format format, bool *tagged, bool *ras, err *e)
 {
-    struct stat info;
-    if (stat(path, &info)) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
-    if (!S_ISREG(info.st_mode)) return err_at(e, ERR_INPUT, path, 0, NULL, "is not a regular file");
-    if (!info.st_size) return err_at(e, ERR_INPUT, path, 0, NULL, "the file is empty");
-    FILE *in = fopen(path, "rb");
-    if (!in) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
+    FILE *in = input_file_open(path, INT64_MAX, NULL, e);
+    if (!in) return false;
     char head[16385];
     size_t n = fread(head, 1, sizeof head - 1, in);
     fclose(in);

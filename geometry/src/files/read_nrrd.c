@@ -58,29 +58,60 @@ static bool read_key(const Nrrd *n, const char *path, int number, const char *wh
     return good;
 }
 
+/* Numbers of the segments that the file tells of, ascending, in a new array: they may begin anywhere and have gaps. */
+static int *segment_numbers(const Nrrd *n, int *count)
+{
+    int *number = NULL;
+    *count = 0;
+    for (unsigned i = 0; i < nrrdKeyValueSize(n); i++) {
+        char *key = NULL, *value = NULL, what[32] = "";
+        int k = -1, end = 0;
+        nrrdKeyValueIndex(n, &key, &value, i);
+        bool named = key && sscanf(key, "Segment%d_%31[A-Za-z]%n", &k, what, &end) == 2 && !key[end] && k >= 0 &&
+                     (!strcmp(what, "Name") || !strcmp(what, "LabelValue"));
+        free(key);
+        free(value);
+        int at = 0;
+        while (named && at < *count && number[at] < k) at++;
+        if (!named || (at < *count && number[at] == k)) continue;
+        number = GROW_ARRAY(int, number, *count + 1);
+        memmove(number + at + 1, number + at, (size_t)(*count - at) * sizeof *number);
+        number[at] = k;
+        ++*count;
+    }
+    return number;
+}
+
+static bool read_segment(const Nrrd *n, const char *path, int number, volume *v, err *e)
+{
+    char key[64];
+    bool found;
+    volume_segment segment = {0};
+    snprintf(key, sizeof key, "Segment%d_Name", number);
+    char *name = nrrdKeyValueGet(n, key);
+    size_t length = name ? strlen(name) : 0;
+    memcpy(segment.name, name ? name : "", length < sizeof segment.name ? length : 0);
+    free(name);
+    if (!length || length >= sizeof segment.name)
+        return err_at(e, ERR_INPUT, path, 0, key, "must have 1 to %zu bytes", sizeof segment.name - 1);
+    if (!read_key(n, path, number, "LabelValue", &segment.label, &found, e)) return false;
+    if (!found)
+        return err_at(e, ERR_INPUT, path, 0, key, "has no label value; save it again with Slicer 4.11 or newer");
+    if (!read_key(n, path, number, "Layer", &segment.layer, &found, e)) return false;
+    if (segment.layer >= v->layers)
+        return err_at(e, ERR_INPUT, path, 0, key, "is in layer %d of %d", segment.layer, v->layers);
+    v->segment = GROW_ARRAY(volume_segment, v->segment, v->segment_count + 1);
+    v->segment[v->segment_count++] = segment;
+    return true;
+}
+
 static bool read_segments(const Nrrd *n, const char *path, volume *v, err *e)
 {
-    for (int i = 0;; i++) {
-        char key[64];
-        bool found;
-        volume_segment segment = {0};
-        snprintf(key, sizeof key, "Segment%d_Name", i);
-        char *name = nrrdKeyValueGet(n, key);
-        if (!name) return true;
-        size_t length = strlen(name);
-        memcpy(segment.name, name, length < sizeof segment.name ? length : 0);
-        free(name);
-        if (!length || length >= sizeof segment.name)
-            return err_at(e, ERR_INPUT, path, 0, key, "must have 1 to %zu bytes", sizeof segment.name - 1);
-        if (!read_key(n, path, i, "LabelValue", &segment.label, &found, e)) return false;
-        if (!found)
-            return err_at(e, ERR_INPUT, path, 0, key, "has no label value; save it again with Slicer 4.11 or newer");
-        if (!read_key(n, path, i, "Layer", &segment.layer, &found, e)) return false;
-        if (segment.layer >= v->layers)
-            return err_at(e, ERR_INPUT, path, 0, key, "is in layer %d of %d", segment.layer, v->layers);
-        v->segment = GROW_ARRAY(volume_segment, v->segment, v->segment_count + 1);
-        v->segment[v->segment_count++] = segment;
-    }
+    int count, *number = segment_numbers(n, &count);
+    bool good = true;
+    for (int i = 0; good && i < count; i++) good = read_segment(n, path, number[i], v, e);
+    free(number);
+    return good;
 }
 
 static bool from_nrrd(const Nrrd *n, const char *path, volume *v, err *e)

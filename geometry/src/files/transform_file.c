@@ -1,5 +1,6 @@
 /* ITK's text transforms (itkTxtTransformIO): x' = M (x - c) + c + t, M row-major, LPS mm. */
 #include "geometry/transform_file.h"
+#include "geometry/input_file.h"
 #include "geometry/src/files/file_name.h"
 #include "geometry/vec.h"
 #include "geometry/write_whole.h"
@@ -152,8 +153,8 @@ bool transform_read(const char *path, rigid *out, err *e)
         return err_at(e, ERR_INPUT, path, 0, NULL, "HDF5 transforms are not read; save it as Text (.tfm)");
     if (!file_name_ends(path, ".tfm") && !file_name_ends(path, ".txt"))
         return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of transform file; read are .tfm and .txt");
-    FILE *in = fopen(path, "rb");
-    if (!in) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
+    FILE *in = input_file_open_text(path, e);
+    if (!in) return false;
     stored s = {.type = -1, .parameter_count = -1, .fixed_count = -1};
     char *text = NULL;
     size_t size = 0;

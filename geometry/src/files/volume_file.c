@@ -1,12 +1,11 @@
 #include "geometry/volume_file.h"
+#include "geometry/input_file.h"
 #include "geometry/mem.h"
 #include "geometry/src/files/file_name.h"
 #include "geometry/src/files/read_volume.h"
 #include "geometry/vec.h"
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const int64_t most_voxels = INT32_MAX;
 
@@ -65,15 +64,12 @@ static bool check_grid(const volume *v, const char *path, err *e)
 bool volume_read(const char *path, volume *out, err *e)
 {
     bool nrrd = file_name_ends(path, ".nrrd"), nifti = file_name_ends(path, ".nii") || file_name_ends(path, ".nii.gz");
-    struct stat info;
     volume v = {0};
     if (!nrrd && !nifti)
         return err_at(e, ERR_INPUT, path, 0, NULL,
                       "unknown kind of volume file; read are .nrrd, .seg.nrrd, .nii and .nii.gz (DICOM: convert with "
                       "dcm2niix)");
-    if (stat(path, &info)) return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read: %s", strerror(errno));
-    if (!S_ISREG(info.st_mode)) return err_at(e, ERR_INPUT, path, 0, NULL, "is not a regular file");
-    if (!info.st_size) return err_at(e, ERR_INPUT, path, 0, NULL, "the file is empty");
+    if (!input_file_check(path, INT64_MAX, e)) return false;
     if (!(nrrd ? read_volume_nrrd(path, &v, e) : read_volume_nifti(path, &v, e)) || !check_grid(&v, path, e)) {
         volume_free(&v);
         return false;

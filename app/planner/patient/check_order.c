@@ -1,0 +1,86 @@
+/* Landmarks against each other: what lies in front of, above or on the same jaw as what, on any head. */
+#include "app/planner/patient/check.h"
+#include "app/planner/patient/landmark_needs.h"
+#include "geometry/frame.h"
+#include "geometry/nearest.h"
+#include <string.h>
+
+typedef enum direction { IN_FRONT, ABOVE } direction;
+
+/* The first lies in front of or above the second by more than -slack_mm, in the head's own axes. */
+static const struct order_row {
+    const char *first, *second;
+    direction how;
+    double slack_mm;
+} order_rows[] = {
+    {"N", "ANS", ABOVE, 0},        {"ANS", "PNS", IN_FRONT, 0},   {"A", "B", ABOVE, 0},
+    {"ANS", "A", ABOVE, 3},        {"A", "U1", ABOVE, 0},         {"L1", "B", ABOVE, 0},
+    {"B", "Me", ABOVE, 0},         {"Pog", "Me", ABOVE, 0},       {"B", "Pog", ABOVE, 0},
+    {"U3_L", "U6_L", IN_FRONT, 0}, {"U3_R", "U6_R", IN_FRONT, 0}, {"L3_L", "L6_L", IN_FRONT, 0},
+    {"L3_R", "L6_R", IN_FRONT, 0}, {"L6_L", "L7_L", IN_FRONT, 0}, {"L6_R", "L7_R", IN_FRONT, 0},
+    {"RA_L", "RP_L", IN_FRONT, 0}, {"RA_R", "RP_R", IN_FRONT, 0}, {"Co_L", "Go_L", ABOVE, 0},
+    {"Co_R", "Go_R", ABOVE, 0},    {"SN_L", "Go_L", ABOVE, 0},    {"SN_R", "Go_R", ABOVE, 0},
+    {"Or_L", "ZB_L", ABOVE, 0},    {"Or_R", "ZB_R", ABOVE, 0},    {"PR_L", "PM_L", IN_FRONT, 0},
+    {"PR_R", "PM_R", IN_FRONT, 0}, {"U1_apex", "U1", ABOVE, 0},   {"L1", "L1_apex", ABOVE, 0},
+    {"G'", "N'", ABOVE, 0},        {"N'", "Pn", ABOVE, 0},        {"Pn", "Sn", IN_FRONT, 0},
+    {"Sn", "Ls", ABOVE, 0},        {"Ls", "Li_soft", ABOVE, 0},   {"Li_soft", "B'", ABOVE, 0},
+    {"B'", "Pg'", ABOVE, 0},       {"Pg'", "Me'", ABOVE, 0},      {"Stms", "Stmi", ABOVE, 0},
+    {"Pn", "T_L", IN_FRONT, 0},    {"Pn", "T_R", IN_FRONT, 0},
+};
+
+void check_order(const case_file *c, const check_found *found, issue_list *issues)
+{
+    head_frame f;
+    err e = {0};
+    if (!found->has_frame || !head_frame_from_landmarks(&found->points, &f, &e)) return;
+    for (size_t i = 0; i < sizeof order_rows / sizeof *order_rows; i++) {
+        const struct order_row *r = &order_rows[i];
+        const landmark *first = landmarks_find(&found->points, r->first),
+                       *second = landmarks_find(&found->points, r->second);
+        double a[3], b[3];
+        if (!first || !second) continue;
+        head_frame_to_local(&f, first->xyz, a);
+        head_frame_to_local(&f, second->xyz, b);
+        double by = r->how == ABOVE ? a[2] - b[2] : b[1] - a[1];
+        if (by > -r->slack_mm) continue;
+        issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, r->first,
+                  "lies %.1f mm %s %s; are the two exchanged?", -by, r->how == ABOVE ? "below" : "behind", r->second);
+    }
+}
+
+/* The jaw a landmark's surface belongs to: CASE_SKULL, CASE_MANDIBLE or neither (CASE_SURFACE_COUNT). */
+static int jaw_of(const landmark_row *r)
+{
+    if (r->on == CASE_SKULL || r->on == CASE_UPPER_TEETH) return CASE_SKULL;
+    if (r->on == CASE_MANDIBLE || r->on == CASE_LOWER_TEETH) return CASE_MANDIBLE;
+    return CASE_SURFACE_COUNT;
+}
+
+/* A point of one jaw that lies on the other one: the edges of upper and lower incisors above all. */
+void check_jaws(const case_file *c, const check_found *found, issue_list *issues)
+{
+    const double off_mm = 1, on_mm = 0.5;
+    static const int own_teeth[] = {[CASE_SKULL] = CASE_UPPER_TEETH, [CASE_MANDIBLE] = CASE_LOWER_TEETH};
+    nearest *tree[CASE_SURFACE_COUNT] = {0};
+    err e = {0};
+    for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++)
+        if (found->mesh[i].triangle_count && !nearest_create(&found->mesh[i], &tree[i], &e)) e = (err){0};
+    for (int i = 0; i < landmark_row_count && tree[CASE_SKULL] && tree[CASE_MANDIBLE]; i++) {
+        const landmark_row *r = &landmark_rows[i];
+        const landmark *p = landmarks_find(&found->points, r->label);
+        int own = jaw_of(r), other = own == CASE_SKULL ? CASE_MANDIBLE : CASE_SKULL;
+        if (!p || own == CASE_SURFACE_COUNT) continue;
+        double gap[2];
+        for (int k = 0; k < 2; k++) {
+            int jaw = k ? other : own;
+            gap[k] = nearest_point(tree[jaw], p->xyz, NULL, NULL);
+            if (tree[own_teeth[jaw]]) gap[k] = fmin(gap[k], nearest_point(tree[own_teeth[jaw]], p->xyz, NULL, NULL));
+        }
+        if (gap[0] > off_mm && gap[1] < on_mm)
+            issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, r->label,
+                      "lies on the %s (%.1f mm) and %.1f mm off the %s, where it belongs (%s)",
+                      other == CASE_SKULL ? "upper jaw" : "lower jaw", gap[1], gap[0],
+                      own == CASE_SKULL ? "upper jaw" : "lower jaw", r->help);
+    }
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) nearest_destroy(&tree[i]);
+}

@@ -1,0 +1,24 @@
+/* input_file: a file that may be read: regular, not empty, not larger than its reader can hold. Pipes and devices are
+ * refused before they are opened for good, so that no reader waits for ever or reads without an end. */
+#pragma once
+#include "geometry/err.h"
+#include <stdint.h>
+#include <stdio.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { INPUT_TEXT_BYTES = 64 << 20 }; /* the most that readers of text take */
+
+/* Opens a regular file of 1 to most_bytes bytes; size (may be NULL) is set to how many. The caller closes it. NULL:
+ * refused (ERR_INPUT, with path). */
+FILE *input_file_open(const char *path, int64_t most_bytes, int64_t *size, err *e);
+/* The same for text, at most INPUT_TEXT_BYTES; a byte order mark of UTF-8, as some editors write it, is skipped.
+ * Refuses UTF-16 too. */
+FILE *input_file_open_text(const char *path, err *e);
+/* Refuses what input_file_open refuses; for readers that open the file themselves. */
+bool input_file_check(const char *path, int64_t most_bytes, err *e) MUST_CHECK;
+
+#ifdef __cplusplus
+}
+#endif
