@@ -1,7 +1,7 @@
 #include "app/planner/patient/check_parts.h"
 #include "geometry/nearest.h"
 #include "geometry/vec.h"
-#include <math.h>
+#include <string.h>
 
 enum { SAMPLES = 1000 };
 
@@ -108,7 +108,7 @@ static double share_within(const parts *p, int a, int b)
 static void check_twice(const parts *p, int bone, int in, issue_list *issues)
 {
     const double most = 0.5; /* joints and teeth that touch are a few per cent */
-    if (!p->tree[bone] || !p->tree[in]) return;
+    if (!p->tree[bone] || !p->tree[in] || !strcmp(p->name[bone], p->name[in])) return; /* one file: told before */
     double share = share_within(p, bone, in);
     if (share > most)
         issue_add(issues, ISSUE_ERROR, ERR_GEOMETRY, p->name[in], 0, NULL,
