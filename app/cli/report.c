@@ -19,7 +19,7 @@ enum { KEY_NAME = KEY_OWN, KEY_NO_PICTURES, KEY_AUDIT, PATH_SIZE = 4096 };
 static const struct argp_option options[] = {
     {"output", 'o', "FILE.html", 0, "The page (OUT/report.html)", 0},
     {"audit", KEY_AUDIT, "FILE", 0,
-     "What gnathos audit wrote about the case, or with --json about the plan (OUT/audit.json "
+     "What gnathos audit wrote about the case or about the plan (OUT/audit.json "
      "where it is there)",
      0},
     {"name", KEY_NAME, NULL, 0,

@@ -74,7 +74,9 @@ cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave 
 cmp "$work/compared.json" "$work/compared/comparison.json" || fail "compare prints another record than it writes"
 "$gnathos" ceph "$work/out" --json >"$work/ceph.json"
 "$gnathos" export "$work/out" --format obj -o "$work/shapes" --json >"$work/export.json"
-/usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work"/*.json
+for record in made check predict audit prepare same before compared ceph export; do
+    /usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work/$record.json"
+done
 [ -s "$work/compared/comparison.vtp" ] && [ -s "$work/compared/regions.csv" ] || fail "compare wrote no files"
 /usr/bin/python3 - "$work" <<'PY'
 import json, os, sys

@@ -1,6 +1,7 @@
 /* Orders, errors and the front of a study, from skins made up to have them. */
 #include "tests/check.h"
 #include "app/study/measures.h"
+#include "app/study/record.h"
 #include <string.h>
 #include "geometry/mem.h"
 
@@ -72,6 +73,29 @@ static void the_soonest_is_near_enough_with_the_references_own_error(void **stat
     study_table_free(&t);
 }
 
+/* What programs read of a study: every setting and tube, null where there is no answer. */
+static void the_record_has_every_setting(void **state)
+{
+    (void)state;
+    static case_file patient;
+    const study_task work = {.patient = &patient};
+    study_table t = {
+        .task = &work, .plan_name = "plan", .count = study_rung_count, .run = NEW_ARRAY(study_run, study_rung_count)};
+    for (int i = 0; i < study_rung_count; i++) t.run[i] = made_up(i, 0.1, 50);
+    t.run[study_default].result.unknowns = 5000000000;
+    study_table_make(&t);
+    json_t *o = study_json(&t), *runs = json_object_get(o, "runs"), *own = json_array_get(runs, (size_t)study_default);
+    assert_string_equal(record_kind_of(o), "study");
+    assert_int_equal(json_array_size(runs), study_rung_count);
+    assert_int_equal(json_array_size(json_object_get(o, "tubes")), STUDY_TUBES);
+    assert_string_equal(json_string_value(json_object_get(own, "setting")), study_rungs[study_default].name);
+    assert_int_equal(json_integer_value(json_object_get(own, "unknowns")), 5000000000);
+    assert_true(json_is_null(json_object_get(own, "meshing_s"))); /* not known */
+    assert_near(json_number_value(json_object_get(own, "mean_error_mm")), t.error[study_default].mean_mm, 1e-15);
+    json_decref(o);
+    study_table_free(&t);
+}
+
 /* The value of the measure of that name in a run that moves each named point by mm (forward, up, left). */
 static double measured(const prepared *p, const char *name, const char *const *label, double mm[][3], int count)
 {
@@ -131,6 +155,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_order_is_found_again),
         cmocka_unit_test(only_skin_that_moves_counts),
+        cmocka_unit_test(the_record_has_every_setting),
         cmocka_unit_test(published_measures_are_taken_from_landmarks),
         cmocka_unit_test(the_soonest_is_near_enough_with_the_references_own_error),
     };
