@@ -8,6 +8,7 @@
  * nearer than before by the way that the lower teeth made against the upper ones, until it lies on them. */
 #pragma once
 #include "geometry/rigid.h"
+#include "geometry/nearest.h"
 #include "geometry/tissue.h"
 #ifdef __cplusplus
 extern "C" {
@@ -22,10 +23,11 @@ typedef struct lip_rest_params {
 lip_rest_params lip_rest_params_default(double vestibule_lower_mm);
 
 /* Turns free nodes of the lower lip's lining into sliding ones with a shift, in a->shift_mm (made where there
- * was none). *count of them; 0 where the mandible does not come forward against the maxilla, or landmarks L1,
- * L6_L and L6_R are missing. Refuses what nearest_create refuses. */
-bool lip_rest(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const landmarks *l,
-              const head_frame *f, const lip_rest_params *p, attach_map *a, int32_t *count, err *e) MUST_CHECK;
+ * was none). Returns how many; 0 where the mandible does not come forward against the maxilla, or landmarks L1,
+ * L6_L and L6_R are missing, or
+ * there is no mandible (NULL). */
+int32_t lip_rest(const tissue *t, const nearest *mandible, const rigid motion[SEGMENT_COUNT], const landmarks *l,
+                 const head_frame *f, const lip_rest_params *p, attach_map *a);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,7 @@
  * below the skin and clear of the maxilla. Its nodes at the back are tied to the cranium. The airways beside
  * it stay filled with soft tissue; how stiff that is (0.3 to 15 kPa) made no difference to the tip. */
 #pragma once
+#include "geometry/segment_trees.h"
 #include "geometry/tissue.h"
 #ifdef __cplusplus
 extern "C" {
@@ -29,10 +30,10 @@ typedef struct nose {
     int32_t *anchor; /* [anchors] nodes where the septum hangs on the cranium */
 } nose;
 
-/* False in *found, and nothing to free, where landmarks N, ANS or Pn are missing or there is no septum to
- * find. The caller frees *out. Refuses what nearest_create refuses. */
-bool nose_make(const tissue *t, const surface *skin, const segments *bones, const rigid *maxilla_move,
-               const landmarks *l, const nose_params *p, nose *out, bool *found, err *e) MUST_CHECK;
+/* False, and nothing to free, where landmarks N, ANS or Pn are missing or there is no septum to find. at_rest: with the
+ * skin. The caller frees *out. */
+bool nose_make(const tissue *t, const segment_trees *at_rest, const rigid *maxilla_move, const landmarks *l,
+               const nose_params *p, nose *out) MUST_CHECK;
 void nose_free(nose *n);
 
 #ifdef __cplusplus

@@ -7,6 +7,7 @@
  * front of it. The bone that stays was bared to reach the cut: tissue there hangs loose over a strip. */
 #pragma once
 #include "geometry/rigid.h"
+#include "geometry/segment_trees.h"
 #include "geometry/tissue.h"
 #ifdef __cplusplus
 extern "C" {
@@ -24,9 +25,9 @@ typedef struct plan_attach_report {
     int32_t tied, loosened; /* nodes */
 } plan_attach_report;
 
-/* A new map for this plan; the caller frees *out. Refuses what nearest_create refuses. */
-bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const plan_attach_params *p,
-                 attach_map *out, plan_attach_report *report, err *e) MUST_CHECK;
+/* A new map for this plan; the caller frees *out. */
+void plan_attach(const tissue *t, const segment_trees *bones, const rigid motion[SEGMENT_COUNT],
+                 const plan_attach_params *p, attach_map *out, plan_attach_report *report);
 
 #ifdef __cplusplus
 }

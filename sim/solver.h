@@ -20,6 +20,16 @@ void solver_destroy(solver **t);
 bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *start_xyz, const solve_params *params,
                   equilibrium *out, err *e) MUST_CHECK;
 
+/* The same for bones that go on from `from`, where x[3*nodes] was the result: it starts where tissue and contacts go to
+ * first order, and keeps the contacts' guards and stiffenings. Of several equilibria it is more often the one next to
+ * the last plan's than that on the way from rest. */
+bool solver_follow(solver *t, const rigid from[SEGMENT_COUNT], const rigid to[SEGMENT_COUNT], const double *x,
+                   const solve_params *params, equilibrium *out, err *e) MUST_CHECK;
+/* Takes over guards and stiffenings of the contacts that both have; the mesh is the same. */
+void solver_inherit(solver *t, const solver *before);
+/* Matrix and preconditioner of the last plan go: no solve from a start depends on plans before then. */
+void solver_forget(solver *t);
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
 #include "tests/physics/block.h"
 #include "tests/unit/bodies.h"
 #include "geometry/lip_rest.h"
+#include "geometry/segment_trees.h"
 
 /* A lip of 20 x 6 x 10 mm (x left, -y forward, z up) whose lining (y = 6) stands 4 mm in front of the lower
  * teeth. */
@@ -45,10 +46,12 @@ static void tear_down(setting *s)
 
 static int32_t rest(setting *s)
 {
-    int32_t count;
+    segment_trees trees;
     err e = {0};
     lip_rest_params p = lip_rest_params_default(15);
-    assert_ok(lip_rest(&s->t, &s->bones, s->motion, &s->points, &s->frame, &p, &s->t.attach, &count, &e));
+    assert_ok(segment_trees_make(&s->bones, NULL, &trees, &e));
+    int32_t count = lip_rest(&s->t, trees.part[SEGMENT_DISTAL], s->motion, &s->points, &s->frame, &p, &s->t.attach);
+    segment_trees_free(&trees);
     return count;
 }
 

@@ -41,8 +41,11 @@ static attach_map attach(const setting *s)
     plan_attach_params p = plan_attach_params_default(4);
     plan_attach_report r;
     attach_map a;
+    segment_trees trees;
     err e = {0};
-    assert_ok(plan_attach(&s->t, &s->bones, s->motion, &p, &a, &r, &e));
+    assert_ok(segment_trees_make(&s->bones, NULL, &trees, &e));
+    plan_attach(&s->t, &trees, s->motion, &p, &a, &r);
+    segment_trees_free(&trees);
     return a;
 }
 
@@ -137,16 +140,15 @@ static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **sta
     landmarks l = {0};
     nose_params p = nose_params_default();
     rigid up = rigid_translation((double[]){0, 0, 5}), still = rigid_identity();
-    bool found;
     nose n = {0}, trimmed = {0};
+    segment_trees trees;
     err e = {0};
+    assert_ok(segment_trees_make(&bones, &skin, &trees, &e));
     landmarks_set(&l, "N", (double[]){10, 15, 30});
     landmarks_set(&l, "ANS", (double[]){10, 15, 0});
-    assert_ok(nose_make(&t, &skin, &bones, &still, &l, &p, &n, &found, &e));
-    assert_false(found); /* no tip */
+    assert_false(nose_make(&t, &trees, &still, &l, &p, &n)); /* no tip */
     landmarks_set(&l, "Pn", (double[]){10, 0, 12});
-    assert_ok(nose_make(&t, &skin, &bones, &still, &l, &p, &n, &found, &e));
-    assert_true(found);
+    assert_true(nose_make(&t, &trees, &still, &l, &p, &n));
     int32_t count = 0;
     for (int32_t i = 0; i < t.mesh.tet_count; i++) {
         if (n.region[i] != REGION_SEPTUM) continue;
@@ -161,10 +163,11 @@ static void the_septum_lies_in_the_midplane_clear_of_skin_and_maxilla(void **sta
     assert_int_equal(count, n.septum_tets);
     assert_true(n.anchors > 0);
     for (int32_t i = 0; i < n.anchors; i++) assert_true(t.mesh.xyz[3 * (size_t)n.anchor[i] + 2] > 2 * p.foot_mm);
-    assert_ok(nose_make(&t, &skin, &bones, &up, &l, &p, &trimmed, &found, &e));
-    assert_true(found && trimmed.septum_tets < n.septum_tets); /* an impacted maxilla takes its foot */
+    assert_true(nose_make(&t, &trees, &up, &l, &p, &trimmed));
+    assert_true(trimmed.septum_tets < n.septum_tets); /* an impacted maxilla takes its foot */
     nose_free(&n);
     nose_free(&trimmed);
+    segment_trees_free(&trees);
     landmarks_free(&l);
     segments_free(&bones);
     surface_free(&skin);

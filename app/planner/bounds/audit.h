@@ -6,6 +6,7 @@
 #include "app/planner/store/journal.h"
 #include "app/planner/judge/judge.h"
 #include "app/planner/bounds/tissue_set.h"
+#include "app/planner/predict/live_pool.h"
 
 enum { AUDIT_REQUESTS_MAX = 40, AUDIT_RECORD_POINT = 1, AUDIT_RECORD_TISSUE = 2 };
 
@@ -59,7 +60,8 @@ typedef struct audit {
     /* private */
     judge *judge;
     journal *journal;
-    int64_t expected; /* points in all, a guess */
+    live_pool predictions; /* during audit_tissue */
+    int64_t expected;      /* points in all, a guess */
     double start_s, told_s;
     void (*progress)(int64_t done, int64_t expected, double left_s, void *context);
     void (*solved)(int round, int done, int count, void *context);

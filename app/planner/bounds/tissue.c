@@ -2,7 +2,6 @@
  * to the ends, sides and corners of the box the outermost allowed point is solved; where the tissue stops it, the ray
  * is halved. Between neighbouring rays the rim runs straight. */
 #include "app/planner/bounds/audit.h"
-#include "app/planner/predict/prediction.h"
 #include "geometry/mem.h"
 #include <math.h>
 #include <stddef.h>
@@ -219,6 +218,15 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 
 /* ---- */
 
+static prediction_options without_face(int load_steps)
+{
+    prediction_options o = prediction_options_default();
+    o.contact = CONTACT_OFF;
+    o.load_steps = load_steps;
+    o.skin = o.points = o.depth = false;
+    return o;
+}
+
 /* Solves what predict --contact off --full solves: contact with bone would take five times as long. What needs the face
  * (incisor show, lower face) only cautions and is left to predict. */
 static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
@@ -227,15 +235,9 @@ static bool solve_point(const int32_t *at, const double *start_xyz, void *contex
     judgement bones;
     plan_moves moves;
     prediction made;
-    prediction_options options = prediction_options_default();
-    options.contact = CONTACT_OFF;
-    options.full = true;
-    options.load_steps = a->base.load_steps;
-    options.skin = options.points = options.depth = false;
-    options.start_xyz = start_xyz;
     const task watch = {.interrupted = audit_stopped, .context = a};
     if (!audit_judge(a, at, &bones, &moves, e) ||
-        !prediction_make(a->patient, a->prepared, NULL, &moves, &options, &watch, &made, e))
+        !live_pool_predict(&a->predictions, &moves, start_xyz, &watch, &made, e))
         return false;
     *v = audit_verdict(a, &made.limits);
     *out = made.solve;
@@ -260,13 +262,12 @@ void audit_tissue_start(audit *a)
     tissue_set_start(&a->tissue);
 }
 
-bool audit_tissue(audit *a, journal *to, err *e)
+/* Asks all rays, with what predicts at hand. */
+static bool ask(audit *a, err *e)
 {
     int32_t base[SAMPLE_AXES_MAX] = {0};
     judgement j;
     plan_moves moves;
-    a->journal = to;
-    a->tissue_asked = true;
     if (!audit_judge(a, base, &j, &moves, e)) return false;
     a->tissue.starts_at_rest = true;
     for (int s = 0; s < SEGMENT_COUNT; s++) a->tissue.starts_at_rest &= rigid_is_identity(&moves.move[s]);
@@ -284,5 +285,19 @@ bool audit_tissue(audit *a, journal *to, err *e)
     free(h.bad);
     free(at);
     free(ray);
+    return ok;
+}
+
+bool audit_tissue(audit *a, journal *to, err *e)
+{
+    bone_shapes shapes;
+    const prediction_options options = without_face(a->base.load_steps);
+    a->journal = to;
+    a->tissue_asked = true;
+    if (!bone_shapes_make(a->prepared, &shapes, e)) return false;
+    live_pool_start(&a->predictions, a->patient, a->prepared, &shapes, &options);
+    bool ok = ask(a, e);
+    live_pool_free(&a->predictions);
+    bone_shapes_free(&shapes);
     return ok;
 }

@@ -7,7 +7,8 @@
 static const double limit_mm = 0.1, deep_mm = 1;
 
 typedef struct bones {
-    nearest *const *part, *skin;
+    nearest *const *part;
+    const nearest *skin;
     rigid back[SEGMENT_COUNT];
 } bones;
 
@@ -55,23 +56,19 @@ static void ask_node(const bones *b, const double rest[3], const double x[3], do
     }
 }
 
-bool bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves, const attach_map *a,
-                        const double *xyz, bone_depth *out, err *e)
+bone_depth bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
+                              const attach_map *a, const double *xyz)
 {
-    bones b = {.part = shapes->tree};
-    bool ok = nearest_create(&p->skin, &b.skin, e);
+    bones b = {.part = shapes->trees.part, .skin = shapes->trees.skin};
+    bone_depth out = {.limit_mm = limit_mm, .segment = -1};
+    const tissue *t = &p->tissue;
+    double *area = node_areas(&t->mesh);
     for (int s = 0; s < SEGMENT_COUNT; s++) b.back[s] = rigid_inverse(&moves->move[s]);
-    if (ok) {
-        const tissue *t = &p->tissue;
-        double *area = node_areas(&t->mesh);
-        *out = (bone_depth){.limit_mm = limit_mm, .segment = -1};
-        for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
-            bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN;
-            if (outside && a->kind[v] != NODE_TIED)
-                ask_node(&b, t->mesh.xyz + 3 * (size_t)v, xyz + 3 * (size_t)v, area[v], out);
-        }
-        free(area);
+    for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
+        bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN;
+        if (outside && a->kind[v] != NODE_TIED)
+            ask_node(&b, t->mesh.xyz + 3 * (size_t)v, xyz + 3 * (size_t)v, area[v], &out);
     }
-    nearest_destroy(&b.skin);
-    return ok;
+    free(area);
+    return out;
 }

@@ -16,6 +16,6 @@ typedef struct bone_depth {
     double from_skin_mm;  /* distance of that node from the skin before the move */
 } bone_depth;
 
-/* xyz[3*nodes]: the tissue after the plan. Refuses what nearest_create refuses. */
-bool bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves, const attach_map *a,
-                        const double *xyz, bone_depth *out, err *e) MUST_CHECK;
+/* xyz[3*nodes]: the tissue after the plan. */
+bone_depth bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
+                              const attach_map *a, const double *xyz);

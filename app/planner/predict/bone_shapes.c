@@ -26,26 +26,22 @@ static bool leave(const void *context, const double x[3], const double direction
 bool bone_shapes_make(const prepared *p, bone_shapes *out, err *e)
 {
     *out = (bone_shapes){0};
+    if (!segment_trees_make(&p->segments, &p->skin, &out->trees, e)) return false;
     for (int k = 0; k < SEGMENT_COUNT; k++) {
-        const surface *bone = &p->segments.part[k];
         double low[3], high[3];
-        if (!bone->triangle_count) continue;
-        if (!nearest_create(bone, &out->tree[k], e)) {
-            bone_shapes_free(out);
-            return false;
-        }
-        surface_bounds(bone, low, high);
-        out->field[k] = distance_field_create(out->tree[k], low, high, grid_mm, known_mm);
+        if (!out->trees.part[k]) continue;
+        surface_bounds(&p->segments.part[k], low, high);
+        out->field[k] = distance_field_create(out->trees.part[k], low, high, grid_mm, known_mm);
         out->shape[k] = (bone_shape){.context = out->field[k], .distance = distance, .leave = leave};
     }
+    out->carriers = landmark_carriers_find(p, &out->trees);
     return true;
 }
 
 void bone_shapes_free(bone_shapes *s)
 {
-    for (int k = 0; k < SEGMENT_COUNT; k++) {
-        distance_field_destroy(&s->field[k]);
-        nearest_destroy(&s->tree[k]);
-    }
+    for (int k = 0; k < SEGMENT_COUNT; k++) distance_field_destroy(&s->field[k]);
+    segment_trees_free(&s->trees);
+    landmark_carriers_free(&s->carriers);
     *s = (bone_shapes){0};
 }

@@ -1,13 +1,16 @@
-/* bone_shapes: the segments at rest as tissue meets them: trees for exact questions, smooth distances for contact. */
+/* bone_shapes: a case's surfaces at rest as every plan asks them: trees for exact questions, smooth distances of the
+ * segments for contact, and what carries the landmarks. */
 #pragma once
-#include "app/planner/patient/prepared.h"
+#include "app/planner/predict/carried.h"
 #include "geometry/distance_field.h"
+#include "geometry/segment_trees.h"
 #include "sim/contact.h"
 
 typedef struct bone_shapes {
-    nearest *tree[SEGMENT_COUNT]; /* NULL: the case has no such segment */
-    distance_field *field[SEGMENT_COUNT];
-    bone_shape shape[SEGMENT_COUNT]; /* over the fields */
+    segment_trees trees;                  /* with the skin */
+    distance_field *field[SEGMENT_COUNT]; /* NULL: the case has no such segment */
+    bone_shape shape[SEGMENT_COUNT];      /* over the fields */
+    landmark_carriers carriers;
 } bone_shapes;
 
 /* Fills *out in place (not to be copied); the caller frees it before p. Refuses what nearest_create refuses. */

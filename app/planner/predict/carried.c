@@ -1,7 +1,6 @@
 #include "app/planner/predict/carried.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/mem.h"
-#include "geometry/nearest.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -15,12 +14,12 @@ static const landmark_row *row_of(const char *label)
     return NULL;
 }
 
-static int nearest_part(nearest *const tree[SEGMENT_COUNT], const double p[3], double *gap)
+static int nearest_part(const segment_trees *trees, const double p[3], double *gap)
 {
     int best = CARRIED_BY_NONE;
     *gap = HUGE_VAL;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
-        double d = tree[s] ? nearest_point(tree[s], p, NULL, NULL) : HUGE_VAL;
+        double d = trees->part[s] ? nearest_point(trees->part[s], p, NULL, NULL) : HUGE_VAL;
         if (d < *gap) {
             *gap = d;
             best = s;
@@ -29,37 +28,49 @@ static int nearest_part(nearest *const tree[SEGMENT_COUNT], const double p[3], d
     return best;
 }
 
-bool carry_landmarks(const prepared *p, const plan_moves *moves, const double *u, carried_landmarks *out, err *e)
+landmark_carriers landmark_carriers_find(const prepared *p, const segment_trees *trees)
 {
-    nearest *tree[SEGMENT_COUNT] = {0};
-    bool ok = true;
-    for (int s = 0; s < SEGMENT_COUNT; s++)
-        if (p->segments.part[s].triangle_count) ok = ok && nearest_create(&p->segments.part[s], &tree[s], e);
     int32_t count = p->points.count;
-    carried_landmarks c = {.after = landmarks_copy(&p->points), .carrier = NEW_ARRAY(int, count)};
-    for (int32_t i = 0; ok && i < count; i++) {
-        const landmark *from = &p->points.point[i];
-        const landmark_row *row = row_of(from->label);
-        double gap, *to = c.after.point[i].xyz;
-        int part = nearest_part(tree, from->xyz, &gap);
+    double *xyz = NEW_ARRAY(double, 3 * (size_t)count);
+    landmark_carriers c = {.carrier = NEW_ARRAY(int, count)};
+    for (int32_t i = 0; i < count; i++) vec_copy(p->points.point[i].xyz, xyz + 3 * (size_t)i);
+    c.in_tissue = tissue_carry(&p->tissue, xyz, count, reach_mm);
+    for (int32_t i = 0; i < count; i++) {
+        const landmark_row *row = row_of(p->points.point[i].label);
+        double gap;
+        int part = nearest_part(trees, p->points.point[i].xyz, &gap);
         bool inside_head = row && row->on == CASE_SURFACE_COUNT;
-        if (!(row && row->on == CASE_SKIN) && (gap <= reach_mm || inside_head)) {
-            c.carrier[i] = part;
-            rigid_apply(&moves->move[part], from->xyz, to);
-            continue;
-        }
-        embedding at = tissue_carry(&p->tissue, from->xyz, 1, reach_mm);
-        c.carrier[i] = at.tet[0] >= 0 ? CARRIED_BY_SKIN : CARRIED_BY_NONE;
-        embedding_apply(&at, &p->tissue.mesh, u, from->xyz, to);
-        embedding_free(&at);
+        bool on_bone = !(row && row->on == CASE_SKIN) && (gap <= reach_mm || inside_head);
+        c.carrier[i] = on_bone ? part : c.in_tissue.tet[i] >= 0 ? CARRIED_BY_SKIN : CARRIED_BY_NONE;
     }
-    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&tree[s]);
-    if (!ok) {
-        carried_landmarks_free(&c);
-        return false;
+    free(xyz);
+    return c;
+}
+
+void landmark_carriers_free(landmark_carriers *c)
+{
+    free(c->carrier);
+    embedding_free(&c->in_tissue);
+    *c = (landmark_carriers){0};
+}
+
+carried_landmarks carry_landmarks(const prepared *p, const landmark_carriers *by, const plan_moves *moves,
+                                  const double *u)
+{
+    int32_t count = p->points.count;
+    carried_landmarks c = {.after = landmarks_copy(&p->points), .carrier = COPY_ARRAY(int, by->carrier, count)};
+    double *from = NEW_ARRAY(double, 3 * (size_t)count), *to = NEW_ARRAY(double, 3 * (size_t)count);
+    for (int32_t i = 0; i < count; i++) vec_copy(p->points.point[i].xyz, from + 3 * (size_t)i);
+    embedding_apply(&by->in_tissue, &p->tissue.mesh, u, from, to);
+    for (int32_t i = 0; i < count; i++) {
+        if (by->carrier[i] >= 0)
+            rigid_apply(&moves->move[by->carrier[i]], from + 3 * (size_t)i, c.after.point[i].xyz);
+        else
+            vec_copy(to + 3 * (size_t)i, c.after.point[i].xyz);
     }
-    *out = c;
-    return true;
+    free(from);
+    free(to);
+    return c;
 }
 
 void carried_landmarks_free(carried_landmarks *c)

@@ -2,6 +2,7 @@
 #pragma once
 #include "app/planner/plan/plan_moves.h"
 #include "app/planner/patient/prepared.h"
+#include "geometry/segment_trees.h"
 
 enum { CARRIED_BY_SKIN = -1, CARRIED_BY_NONE = -2 };
 
@@ -10,10 +11,17 @@ typedef struct carried_landmarks {
     int *carrier;    /* [count] segment_id, CARRIED_BY_SKIN or CARRIED_BY_NONE (off every surface: stays) */
 } carried_landmarks;
 
-/* u[3*nodes]: displacement of the tissue's nodes. Refuses what nearest_create refuses. The caller frees *out.
- */
-bool carry_landmarks(const prepared *p, const plan_moves *moves, const double *u, carried_landmarks *out,
-                     err *e) MUST_CHECK;
+/* What carries each landmark of a case. */
+typedef struct landmark_carriers {
+    int *carrier;        /* [count] as above */
+    embedding in_tissue; /* of all of them */
+} landmark_carriers;
+landmark_carriers landmark_carriers_find(const prepared *p, const segment_trees *trees);
+void landmark_carriers_free(landmark_carriers *c); /* idempotent */
+
+/* u[3*nodes]: displacement of the tissue's nodes; by: of p. The caller frees *out. */
+carried_landmarks carry_landmarks(const prepared *p, const landmark_carriers *by, const plan_moves *moves,
+                                  const double *u);
 void carried_landmarks_free(carried_landmarks *c);
 
 /* Soft-tissue points and the bony or dental points they are compared with, and the ratio of their forward

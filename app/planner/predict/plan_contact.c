@@ -29,14 +29,14 @@ static double slip_at(const rigid motion[SEGMENT_COUNT], const bone_shapes *s, c
     for (int a = 0; a < SEGMENT_COUNT; a++) {
         rigid_apply(&motion[a], x, at[a]);
         for (int b = 0; b < a; b++)
-            if (s->tree[a] && s->tree[b]) longest = fmax(longest, vec_distance(at[a], at[b]));
+            if (s->trees.part[a] && s->trees.part[b]) longest = fmax(longest, vec_distance(at[a], at[b]));
     }
     return longest;
 }
 
 /* Free nodes on the tissue's surface that a bone can come near. */
 static void find_extra(const tissue *t, const attach_map *a, const rigid motion[SEGMENT_COUNT], const bone_shapes *s,
-                       plan_contact *c)
+                       double more_mm, plan_contact *c)
 {
     c->extra = NEW_ARRAY(int32_t, t->mesh.vertex_count);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
@@ -44,7 +44,7 @@ static void find_extra(const tissue *t, const attach_map *a, const rigid motion[
         bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN, near = false;
         double slip = outside && a->kind[v] == NODE_FREE ? slip_at(motion, s, x) : 0;
         for (int k = 0; slip > 0 && !near && k < SEGMENT_COUNT; k++)
-            near = s->tree[k] && nearest_point(s->tree[k], x, NULL, NULL) < slip + watch_mm;
+            near = s->trees.part[k] && nearest_point(s->trees.part[k], x, NULL, NULL) < slip + more_mm + watch_mm;
         if (near) c->extra[c->setup.extra_count++] = v;
     }
     c->setup.extra = c->extra;
@@ -122,13 +122,13 @@ static bool is_run_over(const bone_shapes *s, const rigid motion[SEGMENT_COUNT],
     double moved[3], at[3], back[3], hit[3], normal[3];
     rigid_apply(&motion[own], x, moved);
     for (int k = 0; k < SEGMENT_COUNT; k++) {
-        if (k == own || !s->tree[k]) continue;
+        if (k == own || !s->trees.part[k]) continue;
         rigid back_k = rigid_inverse(&motion[k]);
         rigid_apply(&back_k, moved, at);
         vec_sub(x, at, back);
         double gone = vec_normalize(back);
         if (gone > 0 &&
-            (nearest_inside(s->tree[k], at) || distance_field_leave(s->field[k], at, back, gone, hit, normal)))
+            (nearest_inside(s->trees.part[k], at) || distance_field_leave(s->field[k], at, back, gone, hit, normal)))
             return true;
     }
     return false;
@@ -160,14 +160,14 @@ int32_t plan_contact_release(const tissue *t, const bone_shapes *bones, const ri
 }
 
 void plan_contact_make(contact_kind kind, const tissue *t, const bone_shapes *bones, const attach_map *attach,
-                       const rigid motion[SEGMENT_COUNT], double young_kpa, plan_contact *out)
+                       const rigid motion[SEGMENT_COUNT], double young_kpa, double more_mm, plan_contact *out)
 {
     *out = (plan_contact){.setup = {.params = contact_params_default(), .held = kind == CONTACT_BONES}};
     out->setup.params.pressure_kpa = young_kpa;
     out->setup.params.depth_limit_mm = depth_limit_mm;
     for (int k = 0; k < SEGMENT_COUNT; k++)
-        if (bones->tree[k]) out->setup.shape[k] = &bones->shape[k];
-    find_extra(t, attach, motion, bones, out);
+        if (bones->trees.part[k]) out->setup.shape[k] = &bones->shape[k];
+    find_extra(t, attach, motion, bones, more_mm, out);
     if (kind == CONTACT_LIPS) find_lips(t, attach, out);
 }
 

@@ -20,7 +20,8 @@ typedef struct plan_contact {
  * shares tets with it. Returns how many nodes. */
 int32_t plan_contact_release(const tissue *t, const bone_shapes *bones, const rigid motion[SEGMENT_COUNT],
                              attach_map *attach);
-/* attach, motion: of the plan; kind: not CONTACT_OFF. All are borrowed; the caller frees *out first. */
+/* attach, motion: of the plan; kind: not CONTACT_OFF. Nodes that more_mm of further moves could bring near bone are in
+ * it too: they do no more than cost. All are borrowed; the caller frees *out first. */
 void plan_contact_make(contact_kind kind, const tissue *t, const bone_shapes *bones, const attach_map *attach,
-                       const rigid motion[SEGMENT_COUNT], double young_kpa, plan_contact *out);
+                       const rigid motion[SEGMENT_COUNT], double young_kpa, double more_mm, plan_contact *out);
 void plan_contact_free(plan_contact *c);

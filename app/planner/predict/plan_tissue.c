@@ -17,35 +17,35 @@ static bool make_materials(const case_file *c, material_model model, plan_tissue
            element_choose(flesh, kind, e) && element_choose(cartilage, kind, e);
 }
 
-static bool add_lip(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
+static void add_lip(const case_file *c, const prepared *p, const segment_trees *trees,
+                    const rigid motion[SEGMENT_COUNT], plan_tissue *t)
 {
     lip_rest_params params = lip_rest_params_default(c->tissue.vestibule_lower_mm);
-    return lip_rest(&p->tissue, &p->segments, motion, &p->points, &p->frame, &params, &t->attach, &t->lip_nodes, e);
+    t->lip_nodes =
+        lip_rest(&p->tissue, trees->part[SEGMENT_DISTAL], motion, &p->points, &p->frame, &params, &t->attach);
 }
 
-static bool add_nose(const prepared *p, const rigid motion[SEGMENT_COUNT], plan_tissue *t, err *e)
+static void add_nose(const prepared *p, const segment_trees *trees, const rigid motion[SEGMENT_COUNT], plan_tissue *t)
 {
     const rigid *maxilla = &motion[SEGMENT_MAXILLA];
     nose_params params = nose_params_default();
-    bool found = false;
-    if (rigid_is_identity(maxilla)) return true;
-    if (!nose_make(&p->tissue, &p->skin, &p->segments, maxilla, &p->points, &params, &t->nose, &found, e)) return false;
-    for (int32_t i = 0; found && i < t->nose.anchors; i++) {
+    if (rigid_is_identity(maxilla) || !nose_make(&p->tissue, trees, maxilla, &p->points, &params, &t->nose)) return;
+    for (int32_t i = 0; i < t->nose.anchors; i++) {
         t->attach.kind[t->nose.anchor[i]] = NODE_TIED;
         t->attach.segment[t->nose.anchor[i]] = SEGMENT_CRANIUM;
     }
-    if (found) t->mesh.region = t->nose.region;
-    return true;
+    t->mesh.region = t->nose.region;
 }
 
-bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool free_lips,
-                      material_model model, plan_tissue *out, err *e)
+bool plan_tissue_make(const case_file *c, const prepared *p, const segment_trees *trees,
+                      const rigid motion[SEGMENT_COUNT], bool free_lips, material_model model, plan_tissue *out, err *e)
 {
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
-    bool ok = plan_attach(&p->tissue, &p->segments, motion, &along_cuts, &t.attach, &t.cuts, e) &&
-              add_nose(p, motion, &t, e) && (free_lips || add_lip(c, p, motion, &t, e)) &&
-              make_materials(c, model, &t, e);
+    plan_attach(&p->tissue, trees, motion, &along_cuts, &t.attach, &t.cuts);
+    add_nose(p, trees, motion, &t);
+    if (!free_lips) add_lip(c, p, trees, motion, &t);
+    bool ok = make_materials(c, model, &t, e);
     if (ok)
         *out = t;
     else

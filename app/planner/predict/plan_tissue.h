@@ -19,7 +19,9 @@ typedef struct plan_tissue {
 } plan_tissue;
 
 /* free_lips: lips and mucosa will be left to touch by themselves, so that the lower lip is not laid onto the
- * teeth. model: of flesh. The caller frees *out before p. Refuses what nearest_create and material_make refuse. */
-bool plan_tissue_make(const case_file *c, const prepared *p, const rigid motion[SEGMENT_COUNT], bool free_lips,
-                      material_model model, plan_tissue *out, err *e) MUST_CHECK;
+ * teeth. model: of flesh. trees: of p, with the skin. The caller frees *out before p. Refuses what material_make
+ * refuses. */
+bool plan_tissue_make(const case_file *c, const prepared *p, const segment_trees *trees,
+                      const rigid motion[SEGMENT_COUNT], bool free_lips, material_model model, plan_tissue *out,
+                      err *e) MUST_CHECK;
 void plan_tissue_free(plan_tissue *t);

@@ -48,7 +48,9 @@ bool prediction_begin(const case_file *c, const prepared *p, const bone_shapes *
     *out = (prediction){0};
     *setup = (prediction_setup){0};
     plan_tissue *flesh = &out->flesh;
-    if (!plan_tissue_make(c, p, moves->move, options->contact == CONTACT_LIPS, options->model, flesh, e)) return false;
+    if (!plan_tissue_make(c, p, &shapes->trees, moves->move, options->contact == CONTACT_LIPS, options->model, flesh,
+                          e))
+        return false;
     if (options->contact == CONTACT_BONES)
         flesh->released = plan_contact_release(&p->tissue, shapes, moves->move, &flesh->attach);
     setup->problem = (equilibrium_problem){.mesh = &flesh->mesh,
@@ -59,7 +61,7 @@ bool prediction_begin(const case_file *c, const prepared *p, const bone_shapes *
     memcpy(setup->problem.motion, moves->move, sizeof setup->problem.motion);
     if (options->contact != CONTACT_OFF) {
         plan_contact_make(options->contact, &p->tissue, shapes, &flesh->attach, moves->move,
-                          flesh->material[0].material.young_kpa, &setup->touch);
+                          flesh->material[0].material.young_kpa, options->watch_more_mm, &setup->touch);
         setup->problem.contact = &setup->touch.setup;
     }
     set_params(options, watch, setup);
@@ -78,7 +80,7 @@ bool prediction_end(const case_file *c, const prepared *p, const bone_shapes *sh
 {
     const equilibrium *q = &io->solve;
     size_t n = 3 * (size_t)q->node_count;
-    bool ok = true, solved = q->outcome == SOLVED;
+    bool solved = q->outcome == SOLVED;
     if (q->outcome == STOPPED_INTERRUPTED) return err_set(e, ERR_INTERRUPTED, "interrupted");
     if (solved) {
         io->u = NEW_ARRAY(double, n);
@@ -88,12 +90,11 @@ bool prediction_end(const case_file *c, const prepared *p, const bone_shapes *sh
         io->skin = surface_copy(&p->skin);
         embedding_apply(&p->skin_on_tissue, &p->tissue.mesh, io->u, p->skin.xyz, io->skin.xyz);
     }
-    if (solved && options->points) ok = carry_landmarks(p, moves, io->u, &io->points, e);
-    if (ok && solved && options->depth)
-        ok = bone_depth_measure(p, shapes, moves, &io->flesh.attach, q->xyz, &io->depth, e);
+    if (solved && options->points) io->points = carry_landmarks(p, &shapes->carriers, moves, io->u);
+    if (solved && options->depth) io->depth = bone_depth_measure(p, shapes, moves, &io->flesh.attach, q->xyz);
     io->limits = options->bones ? *options->bones : (judgement){.reason = -1};
-    if (ok) judge_tissue(c, p, q, io->points.carrier ? &io->points : NULL, &io->limits);
-    return ok;
+    judge_tissue(c, p, q, io->points.carrier ? &io->points : NULL, &io->limits);
+    return true;
 }
 
 /* With shapes. */
@@ -115,8 +116,7 @@ static bool make(const case_file *c, const prepared *p, const bone_shapes *shape
 bool prediction_make(const case_file *c, const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
                      const prediction_options *options, const task *watch, prediction *out, err *e)
 {
-    if (shapes || (options->contact == CONTACT_OFF && !options->depth))
-        return make(c, p, shapes, moves, options, watch, out, e);
+    if (shapes) return make(c, p, shapes, moves, options, watch, out, e);
     bone_shapes own;
     double begin = clock_s();
     if (!bone_shapes_make(p, &own, e)) return false;

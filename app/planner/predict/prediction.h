@@ -23,6 +23,7 @@ typedef struct prediction_options {
     double rel_tol;          /* of the solve, as in solve_params */
     int load_steps;          /* 0: the solver's own */
     material_model model;    /* of flesh; its numbers are the case's */
+    double watch_more_mm;    /* nodes so much farther from bone are in the contacts as well, see plan_contact_make */
     bool skin;               /* predicted skin wanted */
     bool points;             /* carried landmarks wanted */
     bool depth;              /* tissue in bone wanted */
@@ -45,7 +46,7 @@ typedef struct prediction {
     double ready_s, solve_s, cpu_s; /* wall: until the solve, of the solve; CPU of the solve */
 } prediction;
 
-/* shapes: bone_shapes of p, or NULL: made here where contact or depth needs them. A solve that fails is not a
+/* shapes: bone_shapes of p, or NULL: made here. A solve that fails is not a
  * refusal: it returns true, and solve.outcome says why. Refuses what plan_tissue_make, bone_shapes_make and
  * scene_solve refuse, and (ERR_INTERRUPTED) an interruption. p must outlive *out; the caller frees it. */
 bool prediction_make(const case_file *c, const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
@@ -61,11 +62,11 @@ typedef struct prediction_setup {
     scene_params scene;
 } prediction_setup;
 
-/* Flesh, release and touch; shapes NULL only without contact. *setup is freed first. */
+/* Flesh, release and touch. *setup is freed first. */
 bool prediction_begin(const case_file *c, const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
                       const prediction_options *options, const task *watch, prediction *out, prediction_setup *setup,
                       err *e) MUST_CHECK;
 void prediction_setup_free(prediction_setup *s);
-/* Carry and evidence; shapes NULL only without depth. After a failure the caller still frees *io. */
+/* Carry and evidence. Refuses an interrupted solve; the caller still frees *io then. */
 bool prediction_end(const case_file *c, const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
                     const prediction_options *options, prediction *io, err *e) MUST_CHECK;

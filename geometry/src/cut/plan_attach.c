@@ -13,7 +13,7 @@ plan_attach_params plan_attach_params_default(double cut_band_mm)
 typedef struct field {
     const tissue *t;
     const rigid *motion;
-    nearest *part[SEGMENT_COUNT], *kerf;
+    nearest *const *part, *kerf;
 } field;
 
 static bool moves_as(const field *f, int a, int b)
@@ -127,28 +127,18 @@ static attach_map copy_of(const attach_map *a)
     return b;
 }
 
-bool plan_attach(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const plan_attach_params *p,
-                 attach_map *out, plan_attach_report *report, err *e)
+void plan_attach(const tissue *t, const segment_trees *bones, const rigid motion[SEGMENT_COUNT],
+                 const plan_attach_params *p, attach_map *out, plan_attach_report *report)
 {
-    field f = {.t = t, .motion = motion};
-    bool ok = true;
+    field f = {.t = t, .motion = motion, .part = bones->part, .kerf = bones->kerf};
     *report = (plan_attach_report){0};
-    if (bones->kerf.triangle_count) ok = nearest_create(&bones->kerf, &f.kerf, e);
-    for (int s = 0; ok && f.kerf && s < SEGMENT_COUNT; s++)
-        if (bones->part[s].triangle_count) ok = nearest_create(&bones->part[s], &f.part[s], e);
-    if (ok) {
-        *out = copy_of(&t->attach);
-        uint8_t *paired = NEW_ARRAY(uint8_t, t->mesh.vertex_count); /* the lips hang on each other */
-        for (int32_t i = 0; i < 2 * out->pair_count; i++) paired[out->pair[i]] = 1;
-        for (int32_t v = 0; f.kerf && v < t->mesh.vertex_count; v++)
-            if (t->side[v] == SIDE_BONE && !paired[v]) settle(&f, p, v, out, report);
-        free(paired);
-        if (f.kerf) {
-            pull_thorns(t, out, report);
-            part_bridges(&f, out, report);
-        }
-    }
-    nearest_destroy(&f.kerf);
-    for (int s = 0; s < SEGMENT_COUNT; s++) nearest_destroy(&f.part[s]);
-    return ok;
+    *out = copy_of(&t->attach);
+    if (!f.kerf) return;
+    uint8_t *paired = NEW_ARRAY(uint8_t, t->mesh.vertex_count); /* the lips hang on each other */
+    for (int32_t i = 0; i < 2 * out->pair_count; i++) paired[out->pair[i]] = 1;
+    for (int32_t v = 0; v < t->mesh.vertex_count; v++)
+        if (t->side[v] == SIDE_BONE && !paired[v]) settle(&f, p, v, out, report);
+    free(paired);
+    pull_thorns(t, out, report);
+    part_bridges(&f, out, report);
 }

@@ -51,14 +51,12 @@ static double advance_at(const rigid motion[SEGMENT_COUNT], const head_frame *f,
     return -vec_dot(d, f->posterior);
 }
 
-bool lip_rest(const tissue *t, const segments *bones, const rigid motion[SEGMENT_COUNT], const landmarks *l,
-              const head_frame *f, const lip_rest_params *p, attach_map *a, int32_t *count, err *e)
+int32_t lip_rest(const tissue *t, const nearest *mandible, const rigid motion[SEGMENT_COUNT], const landmarks *l,
+                 const head_frame *f, const lip_rest_params *p, attach_map *a)
 {
     front teeth;
-    nearest *mandible = NULL;
-    *count = 0;
-    if (!bones->part[SEGMENT_DISTAL].triangle_count || !find_front(l, f, p->depth_mm, &teeth)) return true;
-    if (!nearest_create(&bones->part[SEGMENT_DISTAL], &mandible, e)) return false;
+    int32_t count = 0;
+    if (!mandible || !find_front(l, f, p->depth_mm, &teeth)) return 0;
     uint8_t *lining = find_lining(t, a);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
         const double *x = t->mesh.xyz + 3 * (size_t)v;
@@ -74,9 +72,8 @@ bool lip_rest(const tissue *t, const segments *bones, const rigid motion[SEGMENT
         a->segment[v] = SEGMENT_DISTAL;
         a->shift_mm[v] = -fmin(gap, advance);
         vec_scale(off, 1 / gap, a->normal + 3 * (size_t)v);
-        ++*count;
+        count++;
     }
     free(lining);
-    nearest_destroy(&mandible);
-    return true;
+    return count;
 }

@@ -13,7 +13,7 @@ typedef struct place {
     double spine[3], nasion[3];
     double left[3];  /* unit, across the midplane */
     double angle[3]; /* septal angle */
-    nearest *skin, *maxilla;
+    const nearest *skin, *maxilla;
     rigid back; /* undoes the maxilla's move */
 } place;
 
@@ -103,26 +103,19 @@ static void mark(const tissue *t, const place *w, const nose_params *p, nose *n)
     free(septum);
 }
 
-bool nose_make(const tissue *t, const surface *skin, const segments *bones, const rigid *maxilla_move,
-               const landmarks *l, const nose_params *p, nose *out, bool *found, err *e)
+bool nose_make(const tissue *t, const segment_trees *at_rest, const rigid *maxilla_move, const landmarks *l,
+               const nose_params *p, nose *out)
 {
-    place w = {.back = rigid_inverse(maxilla_move)};
-    *found = false;
-    if (!find_place(l, p, &w)) return true;
-    const surface *maxilla = &bones->part[SEGMENT_MAXILLA];
-    bool ok = nearest_create(skin, &w.skin, e) && (!maxilla->triangle_count || nearest_create(maxilla, &w.maxilla, e));
-    if (ok) {
-        nose n = {.region = COPY_ARRAY(int32_t, t->mesh.region, t->mesh.tet_count)};
-        mark(t, &w, p, &n);
-        *found = n.septum_tets > 0 && n.anchors > 0;
-        if (*found)
-            *out = n;
-        else
-            nose_free(&n);
-    }
-    nearest_destroy(&w.skin);
-    nearest_destroy(&w.maxilla);
-    return ok;
+    place w = {.back = rigid_inverse(maxilla_move), .skin = at_rest->skin, .maxilla = at_rest->part[SEGMENT_MAXILLA]};
+    if (!find_place(l, p, &w)) return false;
+    nose n = {.region = COPY_ARRAY(int32_t, t->mesh.region, t->mesh.tet_count)};
+    mark(t, &w, p, &n);
+    bool found = n.septum_tets > 0 && n.anchors > 0;
+    if (found)
+        *out = n;
+    else
+        nose_free(&n);
+    return found;
 }
 
 void nose_free(nose *n)

@@ -65,6 +65,10 @@ attach_map contact_loosened(const attach_map *attach, const contact_setup *setup
 
 /* Forgets stiffenings and counts of the last plan. */
 void contact_restart(contact *c);
+/* Forgets the counts of the last plan only: guards and stiffenings go on with their bones. */
+void contact_resume(contact *c);
+/* Takes over the guards and stiffenings of nodes and bones that both have. */
+void contact_inherit(contact *c, const contact *before);
 void contact_move(contact *c, const rigid motion[SEGMENT_COUNT], const rigid *guide, const double *rest_xyz);
 /* Renews what each node sees of bones and lips at x[3*nodes]. */
 void contact_refresh(contact *c, const double *x);
@@ -92,6 +96,10 @@ void contact_mark(contact *c);
  * deep before is left to the steps: it is to come out together with the tissue around. Returns the farthest
  * move, mm. */
 double contact_yield(const contact *c, const boundary *b, double *z);
+/* Adds to force[3*nodes] what the bone contacts of the last contact_energy, at x, come to feel, to first order, where
+ * nodes go by carried[3*nodes] and bones by `on`. */
+void contact_carry(const contact *c, const rigid on[SEGMENT_COUNT], const double *x, const double *carried,
+                   double *force);
 /* Did a contact's stiffness change much since contact_stiffness? Both refer to the last contact_energy. */
 bool contact_stiffness_is_old(const contact *c);
 /* A shape knows its inside, but of a thin bone not the side from which the node came: where a node at

@@ -95,12 +95,17 @@ static bool check_start(const solver *t, const double *start_xyz, err *e)
     return true;
 }
 
+void solver_place(solver *t, const rigid motion[SEGMENT_COUNT])
+{
+    boundary_move(&t->b, t->mesh, t->attach, motion);
+    if (t->touch) contact_move(t->touch, motion, &t->b.guide, t->mesh->xyz);
+}
+
 static void move_bones(solver *t, const rigid motion[SEGMENT_COUNT], double load)
 {
     rigid part[SEGMENT_COUNT];
     for (int s = 0; s < SEGMENT_COUNT; s++) part[s] = motion_part(&motion[s], load);
-    boundary_move(&t->b, t->mesh, t->attach, part);
-    if (t->touch) contact_move(t->touch, part, &t->b.guide, t->mesh->xyz);
+    solver_place(t, part);
 }
 
 /* The last equilibrium, carried along by the guide; the bones are left at the target. */
@@ -143,7 +148,9 @@ static bool follow(descent *d, load_path *p, const rigid motion[SEGMENT_COUNT], 
         d->out->loads++;
         ok = load_run(d, &task, start, outcome, e);
         if (!ok || *outcome == STOPPED_INTERRUPTED) break;
+        bool went_on = p->phase == PATH_GUESS && t->goes_on;
         load_path_go_on(p, *outcome == SOLVED);
+        if (went_on && p->phase != PATH_REACHED) contact_restart(t->touch);
         if (*outcome == SOLVED) memcpy(reached, d->here.x, n * sizeof *reached);
         if (p->reached == 0) memcpy(reached, t->mesh->xyz, n * sizeof *reached);
     }
@@ -164,11 +171,9 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
                      .prepare_s = t->prepare_s};
     descent d;
     descent_make(&d, t, params, &q);
-    if (t->touch) contact_restart(t->touch);
-    if (!start_xyz) { /* what is solved from rest does not depend on plans before */
-        multigrid_destroy(&t->grid);
-        solver_forget_blocks(t);
-    }
+    if (t->touch && t->goes_on) contact_resume(t->touch);
+    if (t->touch && !t->goes_on) contact_restart(t->touch);
+    if (!start_xyz) solver_forget(t); /* what is solved from rest does not depend on plans before */
     load_path path =
         load_path_begin(start_xyz != NULL, t->touch && t->touch->setup.held, params->load_steps, params->max_halvings);
     solve_outcome outcome;

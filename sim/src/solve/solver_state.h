@@ -25,7 +25,11 @@ struct solver {
     double grid_loss; /* iterations lost since, for its age */
     double *matrix_x; /* [3*nodes] where the assembly's node blocks are those without contact, else NULL */
     double prepare_s;
+    bool goes_on; /* from the last plan, with its contacts */
 };
+
+/* Puts the bones in place, for boundary and contacts. */
+void solver_place(solver *t, const rigid motion[SEGMENT_COUNT]);
 
 /* Makes t->l where it is not there. Refuses what linear_create refuses. */
 bool solver_order(solver *t, err *e) MUST_CHECK;
