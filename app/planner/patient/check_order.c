@@ -59,7 +59,7 @@ static int jaw_of(const landmark_row *r)
 /* A point of one jaw that lies on the other one: the edges of upper and lower incisors above all. */
 void check_jaws(const case_file *c, const check_found *found, issue_list *issues)
 {
-    const double off_mm = 1, nearer = 2; /* times: a point between two jaws that touch is near to both */
+    const double off_mm = 1, on_mm = 5, nearer = 2; /* times: a point between two jaws that touch is near to both */
     static const int own_teeth[] = {[CASE_SKULL] = CASE_UPPER_TEETH, [CASE_MANDIBLE] = CASE_LOWER_TEETH};
     nearest *tree[CASE_SURFACE_COUNT] = {0};
     err e = {0};
@@ -76,7 +76,7 @@ void check_jaws(const case_file *c, const check_found *found, issue_list *issues
             gap[k] = nearest_point(tree[jaw], p->xyz, NULL, NULL);
             if (tree[own_teeth[jaw]]) gap[k] = fmin(gap[k], nearest_point(tree[own_teeth[jaw]], p->xyz, NULL, NULL));
         }
-        if (gap[0] > off_mm && gap[0] > nearer * gap[1])
+        if (gap[0] > off_mm && gap[1] < on_mm && gap[0] > nearer * gap[1])
             issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, r->label,
                       "lies %.1f mm from the %s and %.1f mm from the %s, where it belongs (%s)", gap[1],
                       other == CASE_SKULL ? "upper jaw" : "lower jaw", gap[0],
