@@ -11,7 +11,7 @@ const char *record_word(const record_row *r, int n, char *word)
     const char *from = r->words;
     for (; from && n > 0; n--) {
         from = strchr(from, '|');
-        from += from != NULL;
+        if (from) from++;
     }
     if (!from) return NULL;
     snprintf(word, WORD_SIZE, "%.*s", (int)strcspn(from, "|"), from);
