@@ -16,7 +16,7 @@ extern "C" {
 typedef enum move_kind {
     MOVE_NONE,   /* the segment stays */
     MOVE_ANGLES, /* translation and angles about a pivot */
-    MOVE_RIGID   /* the whole motion */
+    MOVE_RIGID   /* the whole motion, of the chin too */
 } move_kind;
 
 typedef struct segment_move {
@@ -48,17 +48,18 @@ typedef struct jaw_motion {
 } jaw_motion;
 
 typedef struct rig_controls {
-    segment_move move[SEGMENT_COUNT]; /* of the chin: relative to the distal segment, in rest position */
+    segment_move move[SEGMENT_COUNT]; /* of the chin, but for MOVE_RIGID: relative to the distal segment, at rest */
     jaw_motion jaw;
 } rig_controls;
 
 rig_controls rig_controls_default(void); /* nothing moves */
 
 /* Rest to planned position of every segment. The chin rides on the distal segment: its own move first, then
- * the distal one's. A proximal segment that is not named stays, so its condyle keeps its seat. The jaw motion
- * comes last and carries distal, chin and both proximal segments together. condyle: left, right, in mm LPS;
- * needed (else NULL) by a jaw motion. Refuses (ERR_INPUT) numbers that are not finite, a moved cranium, a jaw
- * motion without condyles or with condyles less than 40 mm apart or on the wrong sides. */
+ * the distal one's; as MOVE_RIGID it has its whole motion and does not ride. A proximal segment that is not named
+ * stays, so its condyle keeps its seat. The jaw motion comes last and carries distal, chin and both proximal segments
+ * together. condyle: left, right, in mm LPS; needed (else NULL) by a jaw motion. Refuses (ERR_INPUT) numbers that are
+ * not finite, a moved cranium, a jaw motion without condyles or with condyles less than 40 mm apart or on the wrong
+ * sides. */
 bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condyle)[3], rigid motion[SEGMENT_COUNT],
                 err *e) MUST_CHECK;
 

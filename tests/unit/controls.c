@@ -92,6 +92,9 @@ static void a_control_is_read_and_set_alone(void **state)
     plan_vary_set(&other, &straight, -7, &p);
     const segment_move *m = &p.segment[SEGMENT_DISTAL].move;
     assert_true(m->translate_mm[0] == 2 && m->translate_mm[1] == -3 && m->translate_mm[2] == 0 && m->roll_deg == -7);
+    p.segment[SEGMENT_CHIN].move.kind = MOVE_RIGID; /* of another piece: stays whole */
+    assert_ok(plan_vary_open_for(&other, &straight, &p, &e));
+    assert_true(p.segment[SEGMENT_CHIN].move.kind == MOVE_RIGID);
     p.segment[SEGMENT_DISTAL].move.kind = MOVE_RIGID;
     assert_refused(plan_vary_open_for(&x, &straight, &p, &e), ERR_INPUT);
     c.osteotomy_count = 0;

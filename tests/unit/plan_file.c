@@ -174,6 +174,124 @@ static void matrix_and_transform_file_say_the_same(void **state)
     for (int i = 0; i < 3; i++) assert_near(by_file.move[SEGMENT_DISTAL].t[i], a.t[i], 1e-9);
 }
 
+/* The moves of a plan, written as .tfm files as an outcome has them, read again by a plan of files. */
+static void check_round_trip(const char *text)
+{
+    err e = {0};
+    static const segment_id segment[] = {SEGMENT_MAXILLA, SEGMENT_DISTAL, SEGMENT_PROXIMAL_LEFT, SEGMENT_PROXIMAL_RIGHT,
+                                         SEGMENT_CHIN};
+    plan_moves m = moves_of(text);
+    char files[2048], name[80];
+    int n = snprintf(files, sizeof files, "{\"gnathos\": 1, \"override\": \"test\", \"segments\": {");
+    for (int i = 0; i < 5; i++) {
+        snprintf(name, sizeof name, "plan-%ld-%d.tfm", (long)getpid(), i);
+        assert_ok(transform_write(&m.move[segment[i]], name, &e));
+        n += snprintf(files + n, sizeof files - (size_t)n, "%s\"%s\": {\"file\": \"%s\"}", i ? ", " : "",
+                      segment_name(segment[i]), name);
+    }
+    snprintf(files + n, sizeof files - (size_t)n, "}}");
+    plan_moves again = moves_of(files);
+    for (int i = 0; i < 5; i++) {
+        const rigid *a = &m.move[segment[i]], *b = &again.move[segment[i]];
+        for (int k = 0; k < 9; k++) assert_near(b->r[k], a->r[k], 1e-12);
+        for (int k = 0; k < 3; k++) assert_near(b->t[k], a->t[k], 1e-9);
+        snprintf(name, sizeof name, "plan-%ld-%d.tfm", (long)getpid(), i);
+        unlink(name);
+    }
+    for (int l = LIMIT_CHIN_ADVANCE; l < LIMIT_CHIN_ADVANCE + 4; l++) /* still measured against the distal segment */
+        assert_near(again.measure[l], m.measure[l], 1e-6);
+}
+
+static void moves_fed_back_as_files_are_the_same_moves(void **state)
+{
+    (void)state;
+    check_round_trip("{\"gnathos\": 1, \"mandible_advance_mm\": 5.73, \"chin_advance_mm\": 0}");
+    check_round_trip("{\"gnathos\": 1, \"maxilla_advance_mm\": 3, \"mandible_advance_mm\": -4, "
+                     "\"chin_advance_mm\": 5}");
+    check_round_trip("{\"gnathos\": 1, \"segments\": {\"distal\": {\"translate_mm\": [1, -3, 0], \"yaw_deg\": 2, "
+                     "\"pitch_deg\": -3}, \"chin\": {\"translate_mm\": [0, -4, 1], \"pitch_deg\": 3}, "
+                     "\"proximal_left\": {\"yaw_deg\": 1}}}");
+    check_round_trip("{\"gnathos\": 1, \"chin_advance_mm\": 4}");
+}
+
+static void a_matrix_is_the_chins_whole_move(void **state)
+{
+    (void)state;
+    double d[3];
+    const char *matrix = "\"chin\": {\"matrix\": [1, 0, 0, 0, 0, 1, 0, -5, 0, 0, 1, 0, 0, 0, 0, 1]}";
+    const char *const distal[] = {"", "\"distal\": {\"translate_mm\": [0, -3, 0]}, ",
+                                  "\"distal\": {\"yaw_deg\": 2, \"pitch_deg\": -1}, "};
+    for (int i = 0; i < 3; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "{\"gnathos\": 1, \"override\": \"test\", \"segments\": {%s%s}}", distal[i],
+                 matrix);
+        plan_moves m = moves_of(text);
+        moved(&m, SEGMENT_CHIN, "Pog", d);
+        assert_near(d[0], 0, 1e-12);
+        assert_near(d[1], -5, 1e-12);
+        assert_near(d[2], 0, 1e-12);
+        if (i == 1) assert_near(m.measure[LIMIT_CHIN_ADVANCE], 2, 1e-9); /* relative to the distal segment */
+    }
+    plan_moves m = moves_of("{\"gnathos\": 1, \"segments\": {\"distal\": {\"translate_mm\": [0, -3, 0]}, \"chin\": "
+                            "{\"translate_mm\": [0, -2, 0]}}}"); /* a move in parts rides */
+    moved(&m, SEGMENT_CHIN, "Pog", d);
+    assert_near(d[1], -5, 1e-12);
+}
+
+/* Reads a plan that has to be refused; *text holds why. */
+static void refused(const char *plan, char *text, size_t size)
+{
+    err e = {0};
+    plan_file p;
+    plan_moves m;
+    put(plan);
+    assert_false(plan_moves_load(path, &patient, &head, &p, &m, &e));
+    assert_int_equal(e.code, ERR_INPUT);
+    snprintf(text, size, "%s", e.text);
+}
+
+static void every_word_of_an_audit_is_read_or_told_its_place(void **state)
+{
+    (void)state;
+    char plan[256], text[2048], want[128];
+    for (int i = 0; i < CONTROL_PIECE_MAX; i++) {
+        control x;
+        control_of_piece(i, &x);
+        snprintf(plan, sizeof plan, "{\"gnathos\": 1, \"%s\": 3}", x.name);
+        bool short_form = false;
+        for (int k = 0; k < CONTROL_COUNT; k++) short_form |= !strcmp(controls[k].name, x.name);
+        if (short_form) {
+            (void)moves_of(plan);
+            continue;
+        }
+        refused(plan, text, sizeof text);
+        snprintf(want, sizeof want, "its place is \"segments\": {\"%s\": {\"%s", segment_name(x.segment),
+                 x.axis >= RIG_PITCH ? strstr(x.name, x.axis == RIG_YAW    ? "yaw"
+                                                      : x.axis == RIG_ROLL ? "roll"
+                                                                           : "pitch")
+                                     : "translate_mm");
+        if (!strstr(text, want)) print_message("%s: %s; not %s\n", plan, text, want);
+        assert_non_null(strstr(text, want));
+    }
+    static const char *const told[][2] = {
+        {"\"maxilla_roll_deg\": 3", "its place is \"segments\": {\"maxilla\": {\"roll_deg\": 3}}"},
+        {"\"mandible_lateral_mm\": -2", "its place is \"segments\": {\"distal\": {\"translate_mm\": [-2, 0, 0]}}"},
+        {"\"distal_advance_mm\": 2", "did you mean \"mandible_advance_mm\"?"},
+        {"\"maxilla_lift_mm\": 2", "did you mean \"maxilla_impaction_mm\"?"},
+        {"\"mandible_yaw_dg\": 1", "did you mean \"mandible_yaw_deg\"? Its place is \"segments\""},
+        {"\"maxila_advance_mm\": 1", "did you mean \"maxilla_advance_mm\"?"},
+        {"\"segments\": {\"chin\": {\"lift_mm\": 2}}", "its place is \"translate_mm\": [0, 0, 2]"},
+        {"\"segments\": {\"chin\": {\"chin_roll_deg\": 2}}",
+         "its place is \"segments\": {\"chin\": {\"roll_deg\": 2}}"},
+        {"\"segments\": {\"mandible\": {\"roll_deg\": 2}}", "unknown segment; did you mean \"distal\"?"}};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+        snprintf(plan, sizeof plan, "{\"gnathos\": 1, %s}", told[i][0]);
+        refused(plan, text, sizeof text);
+        if (!strstr(text, told[i][1])) print_message("%s: %s\n", plan, text);
+        assert_non_null(strstr(text, told[i][1]));
+    }
+}
+
 static void a_limit_holds_exactly_at_its_end(void **state)
 {
     (void)state;
@@ -221,6 +339,9 @@ int main(void)
         cmocka_unit_test(angles_turn_as_the_help_says),
         cmocka_unit_test(a_pivot_stays_but_for_the_translation),
         cmocka_unit_test(matrix_and_transform_file_say_the_same),
+        cmocka_unit_test(moves_fed_back_as_files_are_the_same_moves),
+        cmocka_unit_test(a_matrix_is_the_chins_whole_move),
+        cmocka_unit_test(every_word_of_an_audit_is_read_or_told_its_place),
         cmocka_unit_test(a_limit_holds_exactly_at_its_end),
         cmocka_unit_test(an_override_turns_a_breach_into_a_warning),
         cmocka_unit_test(a_long_breach_is_measured_at_the_segments_point),

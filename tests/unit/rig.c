@@ -114,10 +114,12 @@ static void the_chin_makes_its_own_move_and_then_the_distal_one(void **state)
     rigid t[SEGMENT_COUNT];
     rig_controls c = rig_controls_default();
     c.move[SEGMENT_DISTAL] = (segment_move){.kind = MOVE_ANGLES, .yaw_deg = 5, .pivot_mm = {0, -60, -40}};
-    c.move[SEGMENT_CHIN].kind = MOVE_RIGID;
-    c.move[SEGMENT_CHIN].motion = rigid_rotation((double[]){0, -90, -50}, (double[]){1, 0, 0}, 0.1);
+    c.move[SEGMENT_CHIN] = (segment_move){.kind = MOVE_ANGLES, .pitch_deg = 6, .pivot_mm = {0, -90, -50}};
     assert_ok(rig_motion(&c, &straight, NULL, t, &e));
-    rigid want = rigid_compose(&t[SEGMENT_DISTAL], &c.move[SEGMENT_CHIN].motion);
+    rigid own = rig_segment_motion(&c.move[SEGMENT_CHIN], &straight), want = rigid_compose(&t[SEGMENT_DISTAL], &own);
+    assert_memory_equal(&t[SEGMENT_CHIN], &want, sizeof want);
+    c.move[SEGMENT_CHIN] = (segment_move){.kind = MOVE_RIGID, .motion = want}; /* whole: the distal one is not added */
+    assert_ok(rig_motion(&c, &straight, NULL, t, &e));
     assert_memory_equal(&t[SEGMENT_CHIN], &want, sizeof want);
 }
 

@@ -120,7 +120,8 @@ static void set_defaults(void) { case_defaults = case_file_default(); }
 
 const field_table *case_fields(void)
 {
-    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0], &case_defaults};
+    static const field_table table = {"case.json, one patient:", rows, sizeof rows / sizeof rows[0], &case_defaults,
+                                      NULL};
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, set_defaults);
     return &table;

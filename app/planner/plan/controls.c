@@ -56,11 +56,41 @@ void control_of_piece(int number, control *out)
     snprintf(out->name, sizeof out->name, "%s_%s", p->name, axis_names[axis]);
 }
 
+bool control_axis(const char *name, rig_axis *axis)
+{
+    for (int i = 0; i < RIG_AXES; i++) {
+        if (strcmp(name, axis_names[i]) != 0) continue;
+        *axis = (rig_axis)i;
+        return true;
+    }
+    return false;
+}
+
+bool control_words(const char *name, segment_id *s, rig_axis *axis)
+{
+    for (int i = 0; i < 2 * CONTROL_PIECES; i++) {
+        const struct piece *p = &pieces[i / 2];
+        const char *word = i % 2 ? segment_name(p->segment) : p->name;
+        size_t n = strlen(word);
+        if (strncmp(name, word, n) != 0 || name[n] != '_' || !control_axis(name + n + 1, axis)) continue;
+        *s = p->segment;
+        return true;
+    }
+    return false;
+}
+
 const char *control_piece_name(segment_id s)
 {
     for (int i = 0; i < CONTROL_PIECES; i++)
         if (pieces[i].segment == s) return pieces[i].name;
     return segment_name(s);
+}
+
+int control_piece_named(const char *name)
+{
+    for (int i = 0; i < CONTROL_PIECES; i++)
+        if (!strcmp(name, pieces[i].name)) return (int)pieces[i].segment;
+    return -1;
 }
 
 bool control_named(const char *name, control *out)

@@ -82,6 +82,12 @@ extern const control controls[CONTROL_COUNT];
 enum { CONTROL_PIECES = 5, CONTROL_PIECE_MAX = CONTROL_PIECES * RIG_AXES };
 void control_of_piece(int number, control *out); /* number: 0 <= number < CONTROL_PIECE_MAX, by piece, then axis */
 const char *control_piece_name(segment_id s);    /* "mandible" of the distal segment, else segment_name */
+int control_piece_named(const char *name);       /* the segment of that piece, or -1 */
+/* Piece and axis of the name of one of a piece, or of its segment's ("distal_yaw_deg"); where the table has a row for
+ * it that is found too. false if there is none of that name. */
+bool control_words(const char *name, segment_id *s, rig_axis *axis) MUST_CHECK;
+/* The axis of "advance_mm" or "roll_deg". */
+bool control_axis(const char *name, rig_axis *axis) MUST_CHECK;
 /* Any control, of the table or of a piece; false if there is none of that name. */
 bool control_named(const char *name, control *out) MUST_CHECK;
 /* One of a piece, as the case bounds it: low and high are the stop range of its limit of moves. Refuses (ERR_USAGE)

@@ -1,5 +1,6 @@
 /* The fields of a plan, one line each. */
 #include "app/planner/plan/plan_file.h"
+#include "app/planner/store/suggest.h"
 #include <math.h>
 #include <pthread.h>
 
@@ -73,12 +74,74 @@ static const field segment_rows[] = {
     {.name = "matrix",
      .kind = FIELD_OTHER,
      .words = "a list of 16 numbers, row by row",
-     .help = "The whole move of the bone as a matrix (LPS, mm), in place of translation and angles."},
+     .help =
+         "The whole move of the bone as a matrix (LPS, mm), in place of translation and angles; of the chin too, which "
+         "otherwise rides on the distal segment."},
     {.name = "file",
      .kind = FIELD_FILE,
      .offset = offsetof(plan_segment, file),
-     .help = "The whole move as a transform saved by 3D Slicer as text (.tfm), in place of all others."},
+     .help =
+         "The whole move, as by a matrix, as a transform saved by 3D Slicer as text (.tfm), in place of all others."},
 };
+
+/* `"roll_deg": 3`, or `"translate_mm": [0, -3, 0]`: along the file's axes, which are about those of the head. */
+static void say_member(rig_axis axis, const json_t *value, char *text, size_t size)
+{
+    static const char *const angle[RIG_AXES] = {
+        [RIG_PITCH] = "pitch_deg", [RIG_YAW] = "yaw_deg", [RIG_ROLL] = "roll_deg"};
+    double v = json_is_number(value) ? json_number_value(value) : 1;
+    if (axis >= RIG_PITCH)
+        snprintf(text, size, "\"%s\": %g", angle[axis], v);
+    else
+        snprintf(text, size, "\"translate_mm\": [%g, %g, %g]", axis == RIG_LEFT ? v : 0,
+                 axis == RIG_FORWARD && v != 0 ? -v : 0, axis == RIG_UP ? v : 0);
+}
+
+/* An audit has six words for each piece, a plan has short fields for four of these. */
+static bool say_place(const char *key, const json_t *value, char *text, size_t size)
+{
+    segment_id s;
+    rig_axis axis;
+    char member[96];
+    if (!control_words(key, &s, &axis)) return false;
+    for (int i = 0; i < CONTROL_COUNT; i++)
+        if (controls[i].kind == CONTROL_OF_SEGMENT && controls[i].segment == s && controls[i].axis == axis) {
+            snprintf(text, size, "did you mean \"%s\"?", controls[i].name);
+            return true;
+        }
+    say_member(axis, value, member, sizeof member);
+    snprintf(text, size, "its place is \"segments\": {\"%s\": {%s}}", segment_name(s), member);
+    return true;
+}
+
+static bool plan_hint(const char *key, const json_t *value, char *text, size_t size)
+{
+    enum { ROWS = sizeof rows / sizeof rows[0] };
+    control piece[CONTROL_PIECE_MAX];
+    const char *names[ROWS + CONTROL_PIECE_MAX];
+    char place[256];
+    if (say_place(key, value, text, size)) return true;
+    for (int i = 0; i < ROWS; i++) names[i] = rows[i].name;
+    for (int i = 0; i < CONTROL_PIECE_MAX; i++) {
+        control_of_piece(i, &piece[i]);
+        names[ROWS + i] = piece[i].name;
+    }
+    int near = suggest_nearest(key, names, ROWS + CONTROL_PIECE_MAX);
+    if (near < ROWS || !say_place(names[near], value, place, sizeof place)) return false;
+    snprintf(text, size, "did you mean \"%s\"? I%s", names[near], place + 1);
+    return true;
+}
+
+static bool segment_hint(const char *key, const json_t *value, char *text, size_t size)
+{
+    rig_axis axis;
+    char member[96];
+    if (say_place(key, value, text, size)) return true;
+    if (!control_axis(key, &axis)) return false;
+    say_member(axis, value, member, sizeof member);
+    snprintf(text, size, "its place is %s", member);
+    return true;
+}
 
 static plan_file plan_defaults; /* filled once */
 static void set_defaults(void) { plan_defaults = plan_file_default(); }
@@ -86,7 +149,7 @@ static void set_defaults(void) { plan_defaults = plan_file_default(); }
 const field_table *plan_fields(void)
 {
     static const field_table table = {"A plan, one set of bone moves:", rows, sizeof rows / sizeof rows[0],
-                                      &plan_defaults};
+                                      &plan_defaults, plan_hint};
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, set_defaults);
     return &table;
@@ -96,6 +159,6 @@ const field_table *plan_segment_fields(void)
 {
     static const plan_segment defaults;
     static const field_table table = {"Each segment in \"segments\":", segment_rows,
-                                      sizeof segment_rows / sizeof segment_rows[0], &defaults};
+                                      sizeof segment_rows / sizeof segment_rows[0], &defaults, segment_hint};
     return &table;
 }

@@ -112,10 +112,13 @@ static void read_segments(const json_file *f, const case_file *c, plan_file *p, 
     json_object_foreach((json_t *)o, key, value)
     {
         if (!strncmp(key, "//", 2)) continue;
-        int id = segment_from_name(key), near = suggest_nearest(key, names + 1, SEGMENT_COUNT - 1);
+        int id = segment_from_name(key), piece = control_piece_named(key),
+            near = suggest_nearest(key, names + 1, SEGMENT_COUNT - 1);
         snprintf(place, sizeof place, "/segments/%.60s", key);
         if (id == SEGMENT_CRANIUM)
             fields_issue(f, place, issues, "the cranium never moves");
+        else if (id < 0 && piece >= 0)
+            fields_issue(f, place, issues, "unknown segment; did you mean \"%s\"?", segment_name((segment_id)piece));
         else if (id < 0 && near >= 0)
             fields_issue(f, place, issues, "unknown segment; did you mean \"%s\"?", names[near + 1]);
         else if (id < 0)

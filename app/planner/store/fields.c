@@ -192,11 +192,16 @@ static int names_within(const field_table *t, const char *base, char (*name)[64]
     return n;
 }
 
-static void unknown(const field_table *t, const char *base, const char *key, const json_file *f, const char *pointer,
-                    issue_list *issues)
+static void unknown(const field_table *t, const char *base, const char *key, const json_t *value, const json_file *f,
+                    const char *pointer, issue_list *issues)
 {
     char name[NAMES_MAX][64], all[768] = "";
     const char *list[NAMES_MAX];
+    if (t->hint && t->hint(key, value, all, sizeof all)) {
+        fields_issue(f, pointer, issues, "unknown field; %s", all);
+        return;
+    }
+    all[0] = 0;
     int n = names_within(t, base, name, list), near = suggest_nearest(key, list, n);
     if (near >= 0) {
         fields_issue(f, pointer, issues, "unknown field; did you mean \"%s\"?", list[near]);
@@ -251,7 +256,7 @@ static void read_object(const field_table *t, const json_file *f, const json_t *
             fields_issue(f, place, issues, "is %s; must be an object { ... }",
                          fields_value_words(value, got, sizeof got));
         } else {
-            unknown(t, base, key, f, place, issues);
+            unknown(t, base, key, value, f, place, issues);
         }
     }
 }

@@ -34,6 +34,9 @@ typedef struct field_table {
     const field *row;
     int count;
     const void *defaults; /* NULL: the text of the help names no defaults */
+    /* Where not NULL: says in `text` what is meant by the unknown field `key` that holds `value`; false if it does not
+     * know. Asked before the nearest name is looked for. */
+    bool (*hint)(const char *key, const json_t *value, char *text, size_t size);
 } field_table;
 
 /* For rows: FROM(0), ABOVE(0), TO(1), BELOW(1), and NUMBER(case_file, tissue.element_mm, "mm", ABOVE(0),

@@ -164,7 +164,8 @@ bool rig_motion(const rig_controls *c, const head_frame *f, const double (*condy
     if (!check_controls(c, e) || (jaw_moves && !check_condyles(condyle, f, e))) return false;
     rigid out[SEGMENT_COUNT];
     for (int s = 0; s < SEGMENT_COUNT; s++) out[s] = rig_segment_motion(&c->move[s], f);
-    out[SEGMENT_CHIN] = rigid_compose(&out[SEGMENT_DISTAL], &out[SEGMENT_CHIN]);
+    if (c->move[SEGMENT_CHIN].kind != MOVE_RIGID)
+        out[SEGMENT_CHIN] = rigid_compose(&out[SEGMENT_DISTAL], &out[SEGMENT_CHIN]);
     if (jaw_moves) {
         rigid jaw = rig_jaw_motion(j, f, condyle);
         static const segment_id mandible[] = {SEGMENT_DISTAL, SEGMENT_CHIN, SEGMENT_PROXIMAL_LEFT,
