@@ -1,9 +1,10 @@
 /* cephalometry: angles and distances of bone, teeth and profile, from landmarks.
  *
- * All are taken in the midsagittal projection of the head frame (Frankfort horizontal): the left component is
- * dropped, forward is -posterior; midpoints stand for pairs (Go = mean of Go_L and Go_R). Signs: positive is
- * forward or up, the upper jaw in front of the lower (overjet, ANB, Wits), overlap (overbite), lip in front of
- * the E-line, convex profile, front end of a plane tilted down (SN-MP, FMA, palatal plane).
+ * All but the transverse ones are taken in the midsagittal projection of the head frame (Frankfort horizontal): the
+ * left component is dropped, forward is -posterior; midpoints stand for pairs (Go = mean of Go_L and Go_R). Signs:
+ * positive is forward, up or to the left, the upper jaw in front of the lower (overjet, ANB, Wits), overlap (overbite),
+ * lip in front of the E-line, convex profile, front end of a plane tilted down (SN-MP, FMA, palatal plane), left side
+ * tilted down (cant).
  *
  * Norms are those of adults as the named sources are commonly quoted; some rest on small samples of one population,
  * and none is a limit. */

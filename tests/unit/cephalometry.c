@@ -100,6 +100,33 @@ static void measures_of_constructed_points_have_their_constructed_values(void **
     landmarks_free(&l);
 }
 
+static void transverse_measures_are_taken_across(void **state)
+{
+    (void)state;
+    landmarks l = {0};
+    head_frame f = file_frame();
+    ceph_value v[CEPH_MEASURES_MAX];
+    const struct {
+        const char *label;
+        double x[3];
+    } point[] = {{"N", {1, -70, 0}},       {"U1", {3, -75, -75}},     {"L1", {2, -70, -74}},
+                 {"Me", {-4, -60, -110}},  {"U3_L", {18, -60, -77}},  {"U3_R", {-16, -60, -77}},
+                 {"U6_L", {26, -40, -80}}, {"U6_R", {-26, -40, -76}}, {"L6_L", {22, -42, -79}},
+                 {"L6_R", {-22, -42, -76}}};
+    for (size_t i = 0; i < sizeof point / sizeof *point; i++) landmarks_set(&l, point[i].label, point[i].x);
+    ceph_evaluate(&l, &f, v);
+    assert_near(value_of(v, "cant U3")->value, 0, 1e-12);
+    assert_near(value_of(v, "cant U6")->value, atan(4.0 / 52) * 180 / pi, 1e-12); /* the left one is lower */
+    assert_near(value_of(v, "U3 width")->value, 34, 1e-12);
+    assert_near(value_of(v, "U6 width")->value, hypot(52, 4), 1e-12);
+    assert_near(value_of(v, "L6 width")->value, hypot(44, 3), 1e-12);
+    assert_near(value_of(v, "upper midline")->value, 2, 1e-12);
+    assert_near(value_of(v, "lower midline")->value, 1, 1e-12);
+    assert_near(value_of(v, "midline shift")->value, -1, 1e-12);
+    assert_near(value_of(v, "chin midline")->value, -5, 1e-12);
+    landmarks_free(&l);
+}
+
 static void profile_measures_carry_their_signs(void **state)
 {
     (void)state;
@@ -226,6 +253,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(measures_of_constructed_points_have_their_constructed_values),
+        cmocka_unit_test(transverse_measures_are_taken_across),
         cmocka_unit_test(profile_measures_carry_their_signs),
         cmocka_unit_test(what_cannot_be_measured_says_which_landmark_it_needs),
         cmocka_unit_test(norms_are_complete_and_say_where_they_come_from),

@@ -148,7 +148,9 @@ static void closing_stops_where_the_front_teeth_meet(void **state)
 {
     (void)state;
     limit_id by = LIMIT_COUNT;
+    patient.limits[LIMIT_OVERJET].stop[1] = 12; /* it is 10 at rest and grows a little */
     double deg = bound(lower_closes, 0, 8, &by);
+    patient.limits[LIMIT_OVERJET] = limit_default[LIMIT_OVERJET].range;
     assert_near(60 * sin(deg * pi / 180), 0.8 + 3, 0.05);
     assert_int_equal(by, LIMIT_TOOTH_OVERLAP);
 }
@@ -194,6 +196,88 @@ static void bone_to_be_trimmed_is_measured(void **state)
     patient.limits[LIMIT_MAXILLA_IMPACTION] = limit_default[LIMIT_MAXILLA_IMPACTION].range;
 }
 
+static void roll(plan_file *p, double deg)
+{
+    p->segment[SEGMENT_MAXILLA].move.roll_deg = p->segment[SEGMENT_DISTAL].move.roll_deg = deg;
+}
+
+static void a_canted_bite_is_told(void **state)
+{
+    (void)state;
+    judgement j;
+    for (int k = -4; k <= 4; k += 2) {
+        plan_file p = still();
+        roll(&p, k);
+        judged(&p, &j);
+        assert_near(find(&j, LIMIT_OCCLUSAL_CANT)->value, k, 1e-9);
+        assert_int_equal(find(&j, LIMIT_OCCLUSAL_CANT)->level, abs(k) > 2 ? LIMIT_CAUTION : LIMIT_FINE);
+        assert_null(find(&j, LIMIT_OCCLUSAL_CANT)->note);
+    }
+    /* without molars the canines tell; without both, nothing is fine in silence */
+    plan_file p = still();
+    roll(&p, 3);
+    landmark kept[4];
+    static const char *const label[] = {"U6_L", "U6_R", "U3_L", "U3_R"};
+    for (int i = 0; i < 4; i++) kept[i] = *landmarks_find(&head.points, label[i]);
+    landmark *molar = (landmark *)landmarks_find(&head.points, "U6_L");
+    molar->label[0] = 'x';
+    judged(&p, &j);
+    assert_near(find(&j, LIMIT_OCCLUSAL_CANT)->value, 3, 1e-9);
+    assert_non_null(find(&j, LIMIT_OCCLUSAL_CANT)->note);
+    landmark *canine = (landmark *)landmarks_find(&head.points, "U3_R");
+    canine->label[0] = 'x';
+    judged(&p, &j);
+    assert_int_equal(find(&j, LIMIT_OCCLUSAL_CANT)->level, LIMIT_NOT_JUDGED);
+    *molar = kept[0];
+    *canine = kept[3];
+}
+
+static void lower_forward(plan_file *p, double mm) { p->segment[SEGMENT_DISTAL].move.translate_mm[1] = -mm; }
+
+static void a_bite_that_does_not_fit_stops(void **state)
+{
+    (void)state;
+    limit_id by = LIMIT_COUNT;
+    judgement j;
+    patient.limits[LIMIT_MANDIBLE_ADVANCE].stop[1] = 30;
+    assert_near(bound(lower_forward, 0, 29, &by), 20, 0.01); /* the overjet is 10 at rest */
+    assert_int_equal(by, LIMIT_OVERJET);
+    patient.limits[LIMIT_MANDIBLE_ADVANCE] = limit_default[LIMIT_MANDIBLE_ADVANCE].range;
+    plan_file p = still();
+    lower_forward(&p, -0.1);
+    judged(&p, &j);
+    assert_int_equal(j.worst, LIMIT_STOP);
+    assert_int_equal(j.finding[j.reason].limit, LIMIT_OVERJET);
+}
+
+/* A second head whose teeth touch: apart they lead what is said of the plan. */
+static void teeth_that_no_longer_meet_lead(void **state)
+{
+    (void)state;
+    prepared touching = head;
+    judge *own = NULL;
+    judgement j;
+    plan_moves m;
+    err e = {0};
+    issue_list issues = {0};
+    touching.segments.part[SEGMENT_DISTAL] = body_box(-30, -80, -60, 30, -20, -20.1);
+    assert_ok(judge_create(&patient, &touching, &own, &e));
+    for (int down = 0; down <= 2; down += 2) {
+        plan_file p = still();
+        p.segment[SEGMENT_DISTAL].move.translate_mm[2] = -down;
+        assert_true(plan_moves_set(&p, &patient, &head.points, &m, &issues));
+        judge_plan(own, &m, &j);
+        assert_true((find(&j, LIMIT_BITE_CONTACTS)->value > 0) == !down);
+        assert_int_equal(j.worst, LIMIT_CAUTION);
+        assert_int_equal(j.finding[j.reason].limit == LIMIT_BITE_CONTACTS, down > 0);
+    }
+    assert_string_equal(find(&j, LIMIT_BITE_CONTACTS)->note,
+                        "no tooth meets another, as they do in the scan: the bite does not fit");
+    judge_free(&own);
+    surface_free(&touching.segments.part[SEGMENT_DISTAL]);
+    issue_list_free(&issues);
+}
+
 static void levels_and_margins_follow_the_ranges(void **state)
 {
     (void)state;
@@ -219,6 +303,9 @@ int main(void)
         cmocka_unit_test(teeth_stop_the_mandible),
         cmocka_unit_test(closing_stops_where_the_front_teeth_meet),
         cmocka_unit_test(bone_to_be_trimmed_is_measured),
+        cmocka_unit_test(a_canted_bite_is_told),
+        cmocka_unit_test(a_bite_that_does_not_fit_stops),
+        cmocka_unit_test(teeth_that_no_longer_meet_lead),
     };
     return cmocka_run_group_tests(tests, make_head, drop_head);
 }

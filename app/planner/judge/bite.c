@@ -29,6 +29,19 @@ static void judge_incisors(const judge *j, const plan_moves *m, judgement *out)
     add(j, out, LIMIT_DENTAL_MIDLINE, there ? l1[ACROSS] - u1[ACROSS] : (double)NAN, there ? NULL : apart);
 }
 
+/* The cant of the bite, by the first molars, which are farther apart, or else by the canines. */
+static void judge_cant(const judge *j, const plan_moves *m, judgement *out)
+{
+    double left[3], right[3];
+    bool there = planned(j, m, "U6_L", left) && planned(j, m, "U6_R", right), canines = false;
+    if (!there) canines = there = planned(j, m, "U3_L", left) && planned(j, m, "U3_R", right);
+    double cant = there ? atan2(right[UP] - left[UP], left[ACROSS] - right[ACROSS]) : (double)NAN;
+    add(j, out, LIMIT_OCCLUSAL_CANT, cant * 180 / M_PI,
+        !there    ? "needs U6_L and U6_R, or U3_L and U3_R"
+        : canines ? "by the canines: the case has no first molars"
+                  : NULL);
+}
+
 void judge_bite(const judge *j, const plan_moves *m, judgement *out)
 {
     double a[3], b[3], c[3];
@@ -43,4 +56,5 @@ void judge_bite(const judge *j, const plan_moves *m, judgement *out)
     double drop = there ? (b[UP] + c[UP]) / 2 - a[UP] : (double)NAN,
            reach = there ? (b[BACK] + c[BACK]) / 2 - a[BACK] : 1;
     add(j, out, LIMIT_OCCLUSAL_PLANE, atan2(drop, reach) * 180 / M_PI, there ? NULL : "needs U1, U6_L and U6_R");
+    judge_cant(j, m, out);
 }

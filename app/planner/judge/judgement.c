@@ -16,10 +16,17 @@ finding *judgement_add(judgement *out, const case_file *c, limit_id id, const ch
                    .segment_b = -1,
                    .note = note};
     if (estimated && f->level == LIMIT_STOP) f->level = LIMIT_CAUTION;
-    if (f->level > out->worst ||
-        (f->level == out->worst && out->reason >= 0 && f->margin < out->finding[out->reason].margin))
+    const finding *first = out->reason >= 0 ? &out->finding[out->reason] : NULL;
+    if (f->level > out->worst || (f->level == out->worst && first && !first->leads && f->margin < first->margin))
         out->reason = out->count;
     if (f->level > out->worst) out->worst = f->level;
     out->count++;
     return f;
+}
+
+void judgement_lead(judgement *out)
+{
+    finding *f = &out->finding[out->count - 1];
+    f->leads = f->level >= LIMIT_CAUTION;
+    if (f->leads && f->level == out->worst) out->reason = out->count - 1;
 }

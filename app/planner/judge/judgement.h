@@ -14,6 +14,7 @@ typedef struct finding {
     limit_level level;
     double margin;  /* to the stop, > 0 inside, infinite where there is none */
     bool estimated; /* rests on an estimated point, so that it is caution at most */
+    bool leads;     /* decides before others of its level, whatever their margins */
     bool has_place;
     double place[3];          /* LPS mm, with the bones as planned */
     int segment_a, segment_b; /* the bones it is about, or -1 */
@@ -31,3 +32,5 @@ typedef struct judgement {
  * (before the next one). */
 finding *judgement_add(judgement *out, const case_file *c, limit_id id, const char *where, double value, bool estimated,
                        const char *note);
+/* The finding added last leads. */
+void judgement_lead(judgement *out);

@@ -53,6 +53,7 @@ typedef struct judge {
     int canal_count[2];
     const char *no_crowns; /* why the crowns are not known; NULL: they are */
     double tooth_rest_mm;  /* overlap of the crowns in the scan */
+    int tooth_rest_places; /* where the teeth meet in the scan */
     int32_t bite_count;
     double *bite; /* [3*bite_count] points of the lower teeth's chewing side */
 } judge;

@@ -87,16 +87,6 @@ static void find_bite_points(judge *j)
     free(kind);
 }
 
-void judge_teeth_make(judge *j)
-{
-    if (!j->body[SEGMENT_MAXILLA] || !j->body[SEGMENT_DISTAL])
-        j->no_crowns = "the case cuts no Le Fort I, so that the upper teeth are not apart from the skull";
-    if (j->no_crowns || j->jaws_apart) return;
-    rigid rest = rigid_identity();
-    find_bite_points(j);
-    j->tooth_rest_mm = clash_depth(j->body[SEGMENT_MAXILLA], j->body[SEGMENT_DISTAL], &rest, KIND_CROWN).mm;
-}
-
 /* Places, at least apart_mm from each other, where a lower crown is at an upper one. */
 static int count_contacts(const judge *j, const rigid *rel)
 {
@@ -117,6 +107,17 @@ static int count_contacts(const judge *j, const rigid *rel)
         vec_copy(p, found[count++]);
     }
     return count;
+}
+
+void judge_teeth_make(judge *j)
+{
+    if (!j->body[SEGMENT_MAXILLA] || !j->body[SEGMENT_DISTAL])
+        j->no_crowns = "the case cuts no Le Fort I, so that the upper teeth are not apart from the skull";
+    if (j->no_crowns || j->jaws_apart) return;
+    rigid rest = rigid_identity();
+    find_bite_points(j);
+    j->tooth_rest_mm = clash_depth(j->body[SEGMENT_MAXILLA], j->body[SEGMENT_DISTAL], &rest, KIND_CROWN).mm;
+    j->tooth_rest_places = count_contacts(j, &rest);
 }
 
 void judge_teeth(const judge *j, const plan_moves *m, judgement *out)
@@ -143,7 +144,11 @@ void judge_teeth(const judge *j, const plan_moves *m, judgement *out)
     f->segment_b = SEGMENT_DISTAL;
     f->has_place = spot.found;
     if (spot.found) rigid_apply(&m->move[SEGMENT_MAXILLA], spot.place, f->place);
-    f = judgement_add(out, j->patient, LIMIT_BITE_CONTACTS, "", count_contacts(j, &rel), false, NULL);
+    int places = count_contacts(j, &rel);
+    bool lost = !places && j->tooth_rest_places;
+    f = judgement_add(out, j->patient, LIMIT_BITE_CONTACTS, "", places, false,
+                      lost ? "no tooth meets another, as they do in the scan: the bite does not fit" : NULL);
+    if (lost) judgement_lead(out);
     f->segment_a = SEGMENT_MAXILLA;
     f->segment_b = SEGMENT_DISTAL;
 }

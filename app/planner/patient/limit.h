@@ -87,9 +87,10 @@
       "teeth in each other, depth (negative: apart)",                                                                  \
       "own limit, no published number; 1 mm is the noise of a scan's crowns")
 
-/* Of the bite and the face's symmetry; goals more than limits, so that none of them stops. */
+/* Of the bite and the face's symmetry; goals more than limits, so that few of them stop. */
 #define LIMITS_OF_BITE(X)                                                                                              \
-    X(OVERJET, overjet_mm, "mm", 1, 5, -LIMIT_OPEN, LIMIT_OPEN, "overjet", "norm 3.2, sd 0.6 mm (Arnett 1999)")        \
+    X(OVERJET, overjet_mm, "mm", 1, 5, -10, 10, "overjet",                                                             \
+      "norm 3.2, sd 0.6 mm (Arnett 1999); beyond 10 mm either way no plan ends: own limit")                            \
     X(OVERBITE, overbite_mm, "mm", 0, 5, -LIMIT_OPEN, LIMIT_OPEN, "overbite", "norm 3.2, sd 0.7 mm (Arnett 1999)")     \
     X(OPEN_BITE, open_bite_mm, "mm", -LIMIT_OPEN, 0, -LIMIT_OPEN, 20, "open bite",                                     \
       "above 20 mm both jaws must be cut (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 28)")            \
@@ -104,7 +105,9 @@
     X(CANINE_YAW, canine_yaw_mm, "mm", -2, 2, -LIMIT_OPEN, LIMIT_OPEN, "right upper canine before the left",           \
       "up to 2 mm of yaw may be left (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 26)")                \
     X(OCCLUSAL_PLANE, occlusal_plane_deg, "deg", 4, 12, -LIMIT_OPEN, LIMIT_OPEN, "occlusal plane, front down",         \
-      "8, sd 4 degrees to the Frankfort plane (Peterson's Principles 2022, ch. 60)")
+      "8, sd 4 degrees to the Frankfort plane (Peterson's Principles 2022, ch. 60)")                                   \
+    X(OCCLUSAL_CANT, occlusal_cant_deg, "deg", -2, 2, -LIMIT_OPEN, LIMIT_OPEN, "occlusal plane, left side down",       \
+      "own limit, no published number; 2 degrees are 1.7 mm between the first molars")
 
 /* Of the cuts themselves: no plan changes them. */
 #define LIMITS_OF_CUTS(X)                                                                                              \

@@ -18,5 +18,8 @@ typedef enum ceph_rule {
     HP_DOWN,       /* of p3 below p2, perpendicular to it */
     IN_FRONT,      /* of p2 in front of the line p0 p1 */
     WITS,          /* p2 in front of p3 along p1->p0 */
-    SHARE          /* of the height p0 p2 that p0 p1 takes, % */
+    SHARE,         /* of the height p0 p2 that p0 p1 takes, % */
+    WIDTH,         /* p0 p1 in space */
+    LEFT,          /* of p1 from p0 */
+    CANT           /* of p0 (left) to p1 (right) against the horizontal, positive: left side down */
 } ceph_rule;

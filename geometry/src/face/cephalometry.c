@@ -7,11 +7,11 @@
 
 enum { POINTS_MAX = 6, TOKEN_SIZE = 64 };
 
-typedef struct point { /* in the midsagittal plane */
-    double forward, up;
+typedef struct point { /* in the midsagittal plane; left counts in the transverse measures alone */
+    double forward, up, left;
 } point;
 
-static point minus(point a, point b) { return (point){a.forward - b.forward, a.up - b.up}; }
+static point minus(point a, point b) { return (point){a.forward - b.forward, a.up - b.up, a.left - b.left}; }
 static double dot(point a, point b) { return a.forward * b.forward + a.up * b.up; }
 /* Positive where b is turned up from a, for a that looks forward. */
 static double cross(point a, point b) { return a.forward * b.up - a.up * b.forward; }
@@ -56,7 +56,7 @@ static bool find(const landmarks *l, const head_frame *f, const char *name, poin
     double xyz[3], local[3];
     if (!ceph_point(l, name, xyz, missing)) return false;
     head_frame_to_local(f, xyz, local);
-    *out = (point){-local[1], local[2]};
+    *out = (point){-local[1], local[2], local[0]};
     return true;
 }
 
@@ -87,10 +87,10 @@ static bool gather(const landmarks *l, const head_frame *f, const char *names, p
 
 static double combine(ceph_rule rule, const point p[POINTS_MAX])
 {
-    const point forward = {1, 0}, back = {-1, 0};
+    const point forward = {.forward = 1}, back = {.forward = -1};
     /* S-N turned 7 degrees down in front (Burstone et al. 1978) */
     double c = cos(7 / degrees(1)), s = sin(7 / degrees(1));
-    point sn = minus(p[1], p[0]), hp = {c * sn.forward + s * sn.up, c * sn.up - s * sn.forward}, d;
+    point sn = minus(p[1], p[0]), hp = {c * sn.forward + s * sn.up, c * sn.up - s * sn.forward, 0}, d;
     double hp_length = sqrt(dot(hp, hp));
     switch (rule) {
     case ANGLE: return angle(minus(p[0], p[1]), minus(p[2], p[1]));
@@ -110,6 +110,9 @@ static double combine(ceph_rule rule, const point p[POINTS_MAX])
     case IN_FRONT: d = minus(p[2], p[0]); return cross(sn, d) / sqrt(dot(sn, sn));
     case WITS: d = minus(p[0], p[1]); return dot(minus(p[2], p[3]), d) / sqrt(dot(d, d));
     case SHARE: return 100 * sn.up / (p[2].up - p[0].up);
+    case WIDTH: return sqrt(dot(sn, sn) + sn.left * sn.left);
+    case LEFT: return sn.left;
+    case CANT: return degrees(atan2(sn.up, -sn.left));
     default: assert(!"a rule without a formula"); return (double)NAN;
     }
 }
@@ -117,7 +120,7 @@ static double combine(ceph_rule rule, const point p[POINTS_MAX])
 void ceph_evaluate(const landmarks *l, const head_frame *f, ceph_value out[CEPH_MEASURES_MAX])
 {
     for (int i = 0; i < ceph_measure_count; i++) {
-        point p[POINTS_MAX] = {{0, 0}};
+        point p[POINTS_MAX] = {{0}};
         out[i] = (ceph_value){.value = (double)NAN};
         if (gather(l, f, ceph_measures[i].points, p, out[i].note))
             out[i].value = combine((ceph_rule)ceph_measures[i].rule, p);
