@@ -17,7 +17,9 @@ typedef struct mesh_file_report {
 typedef enum mesh_space { MESH_SPACE_FROM_FILE, MESH_SPACE_LPS, MESH_SPACE_RAS } mesh_space;
 
 /* .ply and .off through CGAL (double, vertex numbers kept), .stl .obj .gltf .glb through assimp (float, all
- * meshes of the file, welded, because these formats repeat a vertex in every triangle or group). The result
+ * meshes of the file, welded, because these formats repeat a vertex in every triangle or group). Of glTF one node with
+ * what is below it: FILE.glb#NODE names it where there are several; refused are required extensions that change shapes
+ * and morph targets that are switched on. The result
  * is LPS; numbers are taken as mm without a guess, but glTF is in metres with +y up by definition and is
  * turned: (x, y, z) m -> 1000 (x, -z, y). Colours of vertices are read from .ply only. Untagged files are taken as
  * `space`, FROM_FILE meaning LPS. The caller frees *out. Refuses (ERR_INPUT, with file) unknown extensions and tags,

@@ -23,12 +23,18 @@ typedef struct volume {
     volume_segment *segment;
 } volume;
 
+/* By which of NIfTI's two forms a volume is placed, where they disagree. */
+typedef enum volume_form { VOLUME_FORM_EITHER, VOLUME_FORM_SFORM, VOLUME_FORM_QFORM } volume_form;
+
 void volume_free(volume *v);
 /* Numbers are rounded to whole ones (after NIfTI's slope and intercept). RAS and LAS files are turned to LPS.
  * Refuses (ERR_INPUT, with file and field) unknown extensions, unknown or missing space, units other than mm
  * (NIfTI's other lengths are converted), sheared or degenerate axes, values beyond 16 bits, truncated files.
  * The caller frees *out. */
 bool volume_read(const char *path, volume *out, err *e) MUST_CHECK;
+/* The same; a NIfTI file with an sform and a qform that lie more than 0.01 mm apart somewhere is read by `form` and
+ * refused by volume_read. A file with one of them is read by that. */
+bool volume_read_by(const char *path, volume_form form, volume *out, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -22,11 +22,14 @@ enum {
     KEY_SEAL,
     KEY_EDGE,
     KEY_SKULL,
+    KEY_FORM,
     KEY_MANDIBLE
 };
 
 static const struct argp_option options[] = {
-    {NULL, 0, NULL, 0, "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb), or labels of --labels",
+    {NULL, 0, NULL, 0,
+     "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb, FILE.glb#NODE), or labels of "
+     "--labels",
      1},
     {"skin", KEY_SKIN, "FROM", 0, "Skin of the head; may be open at neck, mouth, eyes and nostrils", 1},
     {"skull", KEY_SKULL, "FROM", 0, "Skull with the maxilla", 1},
@@ -46,6 +49,7 @@ static const struct argp_option options[] = {
     {"preset", KEY_PRESET, "NAME", 0,
      "dental-segmentator, totalsegmentator-craniofacial or toothfairy: the labels of that tool", 3},
     {"ct", KEY_CT, "FILE", 0, "Take the skin from this CT", 3},
+    {"nifti-form", KEY_FORM, "FORM", 0, "sform or qform: which holds where a NIfTI file places itself twice", 3},
     {"skin-hu", KEY_HU, "HU", 0, "Grey value of the skin's surface in the CT (-300)", 3},
     {"seal", KEY_SEAL, "MM", 0,
      "Seal openings of that skin narrower than this, and the airways behind them (8; 0: none)", 3},
@@ -91,6 +95,14 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
             p->space = MESH_SPACE_RAS;
         else
             argp_error(state, "--frame=%s: must be lps or ras", arg);
+        return 0;
+    case KEY_FORM:
+        if (!strcmp(arg, "sform"))
+            p->form = VOLUME_FORM_SFORM;
+        else if (!strcmp(arg, "qform"))
+            p->form = VOLUME_FORM_QFORM;
+        else
+            argp_error(state, "--nifti-form=%s: must be sform or qform", arg);
         return 0;
     case KEY_UNIT:
         p->unit_mm = !strcmp(arg, "mm") ? 1 : !strcmp(arg, "cm") ? 10 : !strcmp(arg, "m") ? 1000 : 0;

@@ -163,6 +163,44 @@ static void nifti_is_turned_from_ras_by_sform_or_qform(void **state)
     }
 }
 
+static void nifti_with_two_forms_that_disagree_is_refused(void **state)
+{
+    (void)state;
+    char head[352];
+    static const struct {
+        int at; /* byte of the header */
+        float value;
+    } wrong[] = {{268, 10.5F}, /* qform shifted */
+                 {264, -1},    /* no change: the same half turn */
+                 {80, 0.6F},   /* voxels of another size */
+                 {280, 0.5F},  /* sform a mirror image */
+                 {276, 30.02F}};
+    for (int i = 0; i < 5; i++) {
+        err e = {0};
+        volume v;
+        make_nifti(head, 1, 2, 0, 2);
+        memcpy(head + wrong[i].at, &wrong[i].value, 4);
+        write_nifti("two.nii", head, 400);
+        bool good = volume_read("two.nii", &v, &e);
+        assert_int_equal(good, i == 1);
+        if (good) {
+            check_places(&v);
+            volume_free(&v);
+            continue;
+        }
+        assert_int_equal(e.code, ERR_INPUT);
+        assert_non_null(strstr(e.text, "sform (code 1)"));
+        assert_non_null(strstr(e.text, "qform (code 2)"));
+        assert_int_equal(strstr(e.text, "mirror") != NULL, i == 3);
+        bool sform_is_right = i != 3;
+        assert_ok(volume_read_by("two.nii", sform_is_right ? VOLUME_FORM_SFORM : VOLUME_FORM_QFORM, &v, &e));
+        check_places(&v);
+        volume_free(&v);
+        assert_ok(volume_read_by("two.nii", sform_is_right ? VOLUME_FORM_QFORM : VOLUME_FORM_SFORM, &v, &e));
+        volume_free(&v);
+    }
+}
+
 static void nifti_slope_and_units_are_honoured(void **state)
 {
     (void)state;
@@ -265,6 +303,7 @@ int main(void)
         cmocka_unit_test(gzip_nrrd_is_read),
         cmocka_unit_test(overlapping_segments_become_layers),
         cmocka_unit_test(nifti_is_turned_from_ras_by_sform_or_qform),
+        cmocka_unit_test(nifti_with_two_forms_that_disagree_is_refused),
         cmocka_unit_test(nifti_slope_and_units_are_honoured),
         cmocka_unit_test(wrong_volumes_are_refused_by_name),
     };

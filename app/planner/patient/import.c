@@ -26,13 +26,23 @@ void import_result_free(import_result *r)
     *r = (import_result){0};
 }
 
+/* Length of the name of a file: FILE.glb of FILE.glb#NODE. */
+static size_t without_node(const char *path)
+{
+    const char *mark = strrchr(path, '#');
+    if (mark && ((mark - path > 4 && !strncasecmp(mark - 4, ".glb", 4)) ||
+                 (mark - path > 5 && !strncasecmp(mark - 5, ".gltf", 5))))
+        return (size_t)(mark - path);
+    return strlen(path);
+}
+
 bool import_is_mesh_name(const char *text)
 {
     static const char *const endings[] = {".ply", ".off", ".stl", ".obj", ".gltf", ".glb"};
-    size_t n = strlen(text);
+    size_t n = without_node(text);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t k = strlen(endings[i]);
-        if (n > k && !strcasecmp(text + n - k, endings[i])) return true;
+        if (n > k && !strncasecmp(text + n - k, endings[i], k)) return true;
     }
     return false;
 }
@@ -57,8 +67,8 @@ static bool measure(import_part *part, err *e)
 
 static bool is_gltf(const char *path)
 {
-    size_t n = strlen(path);
-    return (n > 5 && !strcasecmp(path + n - 5, ".gltf")) || (n > 4 && !strcasecmp(path + n - 4, ".glb"));
+    size_t n = without_node(path);
+    return (n > 5 && !strncasecmp(path + n - 5, ".gltf", 5)) || (n > 4 && !strncasecmp(path + n - 4, ".glb", 4));
 }
 
 static bool read_mesh(const import_params *p, const char *path, import_part *part, issue_list *notes, err *e)

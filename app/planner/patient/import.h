@@ -19,6 +19,7 @@ typedef struct import_params {
     const char *landmarks;
     const char *name; /* NULL: the folder's */
     mesh_space space; /* of mesh files without a tag */
+    volume_form form; /* of NIfTI files whose two forms disagree */
     double unit_mm;   /* length unit of mesh files; 0: mm, refused where that makes no head */
 } import_params;
 

@@ -112,7 +112,7 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
     label_choice choice = {0};
     if (p->preset && !label_preset_check(p->preset, e)) return false;
     task_progress(watch, "labels", -1);
-    if (!volume_read(p->labels, &v, e)) return false;
+    if (!volume_read_by(p->labels, p->form, &v, e)) return false;
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) m[i] = mask_new(v.size);
     bool good = choose_labels(p, &v, out, &choice, e);
     if (good) {
@@ -171,7 +171,7 @@ static bool skin_of_ct(const import_params *p, const task *watch, import_result 
     import_part *part = &out->part[CASE_SKIN];
     if (part->mesh.vertex_count) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     task_progress(watch, "ct", -1);
-    if (!volume_read(p->ct, &v, e)) return false;
+    if (!volume_read_by(p->ct, p->form, &v, e)) return false;
     if (!check_grey_values(p, &v, e)) {
         volume_free(&v);
         return false;

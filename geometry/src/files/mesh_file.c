@@ -2,6 +2,7 @@
 #include "geometry/input_file.h"
 #include "geometry/mem.h"
 #include "geometry/src/files/file_name.h"
+#include "geometry/src/files/gltf_check.h"
 #include "geometry/src/files/read_mesh.h"
 #include <ctype.h>
 #include <math.h>
@@ -161,12 +162,26 @@ static void turn_to_lps(surface *s, bool gltf, bool ras)
     }
 }
 
-bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_file_report *report, err *e)
+static bool read_scene(const char *path, bool gltf, const char *node, polygons *p, err *e)
+{
+    uint8_t *keep = NULL;
+    int count = 0;
+    if (gltf && !gltf_check(path, node, &keep, &count, e)) return false;
+    bool good = read_mesh_scene(path, keep, count, p, e);
+    free(keep);
+    return good;
+}
+
+bool mesh_read_surface(const char *file_and_node, mesh_space space, surface *out, mesh_file_report *report, err *e)
 {
     mesh_format format = FORMAT_PLY;
     mesh_file_report r = {0};
     polygons p = {0};
     surface s = {0};
+    char path[4096];
+    const char *node = gltf_split(file_and_node, path, sizeof path);
+    if (strlen(file_and_node) >= sizeof path)
+        return err_at(e, ERR_INPUT, file_and_node, 0, NULL, "is a path of more than %zu bytes", sizeof path - 1);
     if (!find_format(path, &format, e) || !find_space_tag(path, format, &r.tagged, &r.ras, e)) return false;
     if (!r.tagged) r.ras = space == MESH_SPACE_RAS;
     if (format == FORMAT_PLY || format == FORMAT_OFF) {
@@ -175,7 +190,7 @@ bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_fi
 #else
         return err_at(e, ERR_INPUT, path, 0, NULL, "this build cannot read .ply and .off (GNATHOS_CGAL=OFF)");
 #endif
-    } else if (!read_mesh_scene(path, &p, e)) {
+    } else if (!read_scene(path, format == FORMAT_GLTF, node, &p, e)) {
         return false;
     }
     bool good = surface_from_polygons(&p, path, &s, &r, e);

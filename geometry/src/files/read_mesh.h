@@ -20,8 +20,9 @@ void polygons_free(polygons *p);
  * not used for PLY because 5.2.5 reads a binary file whose data start with 0x0A as nonsense, and reports
  * success. */
 bool read_mesh_polygons(const char *path, polygons *out, err *e) MUST_CHECK;
-/* .stl .obj .gltf .glb, with assimp: all meshes of the scene, in place, float precision. */
-bool read_mesh_scene(const char *path, polygons *out, err *e) MUST_CHECK;
+/* .stl .obj .gltf .glb, with assimp: the meshes of the scene, in place, float precision; keep as
+ * gltf_check makes it, NULL for all. */
+bool read_mesh_scene(const char *path, const uint8_t *keep, int keep_count, polygons *out, err *e) MUST_CHECK;
 
 #ifdef __cplusplus
 }

@@ -24,7 +24,64 @@ static bool known_type(int type)
            type == DT_INT32 || type == DT_FLOAT32 || type == DT_FLOAT64;
 }
 
-static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e)
+static double length_of(const nifti_dmat44 *m, int axis)
+{
+    return hypot(hypot(m->m[0][axis], m->m[1][axis]), m->m[2][axis]);
+}
+
+static double handed(const nifti_dmat44 *a)
+{
+    const double(*m)[4] = a->m;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/* The farthest that the two forms place a corner apart, in the file's unit; 0 where rounding explains it. The
+ * quaternion is stored without its first part, as floats: near half a turn that costs angle, but neither place nor
+ * length. */
+static double forms_apart(const nifti_image *n, double least)
+{
+    const nifti_dmat44 *s = &n->sto_xyz, *q = &n->qto_xyz;
+    const int64_t size[3] = {n->nx, n->ny, n->nz};
+    double first = 1 - n->quatern_b * n->quatern_b - n->quatern_c * n->quatern_c - n->quatern_d * n->quatern_d;
+    double lost = 2e-7, turn = 2 * (first > lost ? lost / (2 * sqrt(first)) : sqrt(lost)), worst = 0, reach = 0;
+    bool apart = false;
+    for (int a = 0; a < 3; a++) {
+        double extent = (double)(size[a] - 1);
+        apart |= fabs(length_of(s, a) - length_of(q, a)) * extent > least;
+        reach = hypot(reach, length_of(s, a) * extent);
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        double d[3];
+        for (int c = 0; c < 3; c++) {
+            d[c] = s->m[c][3] - q->m[c][3];
+            for (int a = 0; a < 3; a++)
+                if (corner >> a & 1) d[c] += (s->m[c][a] - q->m[c][a]) * (double)(size[a] - 1);
+        }
+        double far = hypot(hypot(d[0], d[1]), d[2]);
+        if (!(far <= worst)) worst = far;
+        apart |= !(far <= (corner ? least + turn * reach : least));
+    }
+    return apart ? worst : 0;
+}
+
+/* sform or qform; NULL: refused. */
+static const nifti_dmat44 *choose_form(const nifti_image *n, const char *path, double mm, volume_form form, err *e)
+{
+    if (n->sform_code <= 0) return &n->qto_xyz;
+    if (n->qform_code <= 0 || form == VOLUME_FORM_SFORM) return &n->sto_xyz;
+    if (form == VOLUME_FORM_QFORM) return &n->qto_xyz;
+    double apart = forms_apart(n, 0.01 / mm) * mm;
+    if (apart == 0) return &n->sto_xyz;
+    bool mirrored = handed(&n->sto_xyz) * handed(&n->qto_xyz) < 0;
+    (void)err_at(e, ERR_INPUT, path, 0, NULL,
+                 "its sform (code %d) and its qform (code %d) place a corner %.3g mm apart%s; say which is right with "
+                 "--nifti-form sform or --nifti-form qform",
+                 n->sform_code, n->qform_code, apart, mirrored ? ", one a mirror image of the other" : "");
+    return NULL;
+}
+
+static bool from_nifti(const nifti_image *n, const char *path, volume_form form, volume *v, err *e)
 {
     if (n->nt > 1 || n->nu > 1 || n->nv > 1 || n->nw > 1)
         return err_at(e, ERR_INPUT, path, 0, NULL, "more than three dimensions");
@@ -35,7 +92,8 @@ static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e
         return err_at(e, ERR_INPUT, path, 0, NULL,
                       "has neither sform nor qform: place and sides of the head are unknown");
     double mm = n->xyz_units == NIFTI_UNITS_METER ? 1000 : n->xyz_units == NIFTI_UNITS_MICRON ? 1e-3 : 1;
-    const nifti_dmat44 *m = n->sform_code > 0 ? &n->sto_xyz : &n->qto_xyz;
+    const nifti_dmat44 *m = choose_form(n, path, mm, form, e);
+    if (!m) return false;
     for (int c = 0; c < 3; c++) {
         double scale = c < 2 ? -mm : mm;
         for (int a = 0; a < 3; a++) v->step[a][c] = scale * m->m[c][a];
@@ -55,7 +113,7 @@ static bool from_nifti(const nifti_image *n, const char *path, volume *v, err *e
     return true;
 }
 
-bool read_volume_nifti(const char *path, volume *out, err *e)
+bool read_volume_nifti(const char *path, volume_form form, volume *out, err *e)
 {
     nifti_set_debug_level(0); /* it prints to stderr otherwise */
     nifti_image *n = nifti_image_read(path, 1);
@@ -63,7 +121,7 @@ bool read_volume_nifti(const char *path, volume *out, err *e)
         if (n) nifti_image_free(n);
         return err_at(e, ERR_INPUT, path, 0, NULL, "is not a complete NIfTI file");
     }
-    bool good = from_nifti(n, path, out, e);
+    bool good = from_nifti(n, path, form, out, e);
     nifti_image_free(n);
     return good;
 }

@@ -70,23 +70,37 @@ static void append_mesh(const struct aiMesh *mesh, const placed *at, polygons *p
     p->polygon_count = polygon_count;
 }
 
-static void append_node(const struct aiScene *scene, const struct aiNode *node, const placed *parent, polygons *p)
+typedef struct wanted {
+    const uint8_t *keep; /* by the nodes with a mesh, in the order of the tree; NULL: all */
+    int count, seen;
+} wanted;
+
+static void append_node(const struct aiScene *scene, const struct aiNode *node, const placed *parent, wanted *w,
+                        polygons *p)
 {
     placed at = place_in(parent, &node->mTransformation);
-    for (unsigned i = 0; i < node->mNumMeshes; i++) append_mesh(scene->mMeshes[node->mMeshes[i]], &at, p);
-    for (unsigned i = 0; i < node->mNumChildren; i++) append_node(scene, node->mChildren[i], &at, p);
+    bool keep = !w->keep || !node->mNumMeshes || (w->seen < w->count && w->keep[w->seen]);
+    w->seen += node->mNumMeshes > 0;
+    for (unsigned i = 0; keep && i < node->mNumMeshes; i++) append_mesh(scene->mMeshes[node->mMeshes[i]], &at, p);
+    for (unsigned i = 0; i < node->mNumChildren; i++) append_node(scene, node->mChildren[i], &at, w, p);
 }
 
-bool read_mesh_scene(const char *path, polygons *out, err *e)
+bool read_mesh_scene(const char *path, const uint8_t *keep, int keep_count, polygons *out, err *e)
 {
+    wanted w = {keep, keep_count, 0};
     const struct aiScene *scene = aiImportFile(path, 0);
     if (!scene || !scene->mRootNode) {
         if (scene) aiReleaseImport(scene);
         return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read as a mesh: %s", aiGetErrorString());
     }
     polygons p = {.xyz = NEW_ARRAY(double, 0), .first = NEW_ARRAY(int64_t, 1), .corner = NEW_ARRAY(int64_t, 0)};
-    append_node(scene, scene->mRootNode, &(placed){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, &p);
+    append_node(scene, scene->mRootNode, &(placed){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, &w, &p);
     aiReleaseImport(scene);
+    if (keep && w.seen != keep_count) {
+        polygons_free(&p);
+        return err_at(e, ERR_INPUT, path, 0, NULL, "names %d nodes with a mesh, but %d of them hold triangles",
+                      keep_count, w.seen);
+    }
     *out = p;
     return true;
 }

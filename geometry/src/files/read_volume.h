@@ -3,8 +3,8 @@
 #pragma once
 #include "geometry/volume_file.h"
 
-bool read_volume_nrrd(const char *path, volume *out, err *e) MUST_CHECK;  /* teem */
-bool read_volume_nifti(const char *path, volume *out, err *e) MUST_CHECK; /* libnifti2 */
+bool read_volume_nrrd(const char *path, volume *out, err *e) MUST_CHECK;                    /* teem */
+bool read_volume_nifti(const char *path, volume_form form, volume *out, err *e) MUST_CHECK; /* libnifti2 */
 
 /* The three sizes in range and few enough voxels; allocates value. */
 bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layers, volume *out, err *e) MUST_CHECK;

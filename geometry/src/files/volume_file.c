@@ -61,7 +61,9 @@ static bool check_grid(const volume *v, const char *path, err *e)
     return true;
 }
 
-bool volume_read(const char *path, volume *out, err *e)
+bool volume_read(const char *path, volume *out, err *e) { return volume_read_by(path, VOLUME_FORM_EITHER, out, e); }
+
+bool volume_read_by(const char *path, volume_form form, volume *out, err *e)
 {
     bool nrrd = file_name_ends(path, ".nrrd"), nifti = file_name_ends(path, ".nii") || file_name_ends(path, ".nii.gz");
     volume v = {0};
@@ -70,7 +72,7 @@ bool volume_read(const char *path, volume *out, err *e)
                       "unknown kind of volume file; read are .nrrd, .seg.nrrd, .nii and .nii.gz (DICOM: convert with "
                       "dcm2niix)");
     if (!input_file_check(path, INT64_MAX, e)) return false;
-    if (!(nrrd ? read_volume_nrrd(path, &v, e) : read_volume_nifti(path, &v, e)) || !check_grid(&v, path, e)) {
+    if (!(nrrd ? read_volume_nrrd(path, &v, e) : read_volume_nifti(path, form, &v, e)) || !check_grid(&v, path, e)) {
         volume_free(&v);
         return false;
     }
