@@ -20,7 +20,7 @@ typedef struct boolean_report {
 /* a op b. Both must be closed, outward and free of self-intersection (ERR_GEOMETRY names which is not). *out
  * is the same, and its volume is consistent with those of a and b to 1e-6; it may be empty (vertex_count 0).
  * Surfaces that are not cut keep their vertices to the bit (b up to the shift). The caller frees. report may
- * be NULL. */
+ * be NULL. Vertices are numbered as the triangles of *out name them: the same input gives the same bits. */
 bool boolean_apply(const surface *a, const surface *b, boolean_op op, surface *out, boolean_report *report,
                    err *e) MUST_CHECK;
 

@@ -54,9 +54,32 @@ exact_mesh to_exact(const mesh &m)
 
 mesh to_double(const exact_mesh &x)
 {
+    for (auto v : x.vertices()) CGAL::exact(x.point(v));
     mesh m;
     CGAL::copy_face_graph(x, m);
     return m;
+}
+
+// Corefinement numbers halfedges by the addresses of the faces of its triangulations, and copies vertices in the
+// order of halfedges: their numbers, never the triangles, would differ from run to run. Here the vertices of m are
+// numbered as its triangles name them. False if m is not manifold.
+bool number_vertices(mesh &m)
+{
+    m.collect_garbage();
+    mesh ordered;
+    ordered.reserve(m.number_of_vertices(), m.number_of_edges(), m.number_of_faces());
+    std::vector<mesh::Vertex_index> number(m.number_of_vertices(), mesh::null_vertex());
+    for (auto f : m.faces()) {
+        std::array<mesh::Vertex_index, 3> corner;
+        int k = 0;
+        for (auto v : CGAL::vertices_around_face(m.halfedge(f), m)) {
+            if (number[v] == mesh::null_vertex()) number[v] = ordered.add_vertex(m.point(v));
+            corner[k++] = number[v];
+        }
+        if (ordered.add_face(corner[0], corner[1], corner[2]) == mesh::null_face()) return false;
+    }
+    m = std::move(ordered);
+    return true;
 }
 
 double balance(boolean_op op, double a, double b, double result, double other)
@@ -109,8 +132,7 @@ attempt try_once(const mesh &a, const mesh &b, boolean_op op, double va, double 
         } else {
             done = corefine(x, y, op, t.result, other);
         }
-        if (!done) return t;
-        t.result.collect_garbage();
+        if (!done || !number_vertices(t.result)) return t;
         t.report.volume_error = balance(op, va, vb, volume(t.result), volume(other));
         t.balanced = t.report.volume_error <= volume_tolerance;
         t.sound = t.balanced && closed_and_simple(t.result);
