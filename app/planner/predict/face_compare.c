@@ -1,4 +1,5 @@
 #include "app/planner/predict/face_compare.h"
+#include "geometry/face_fit.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/smoothed_motion.h"
@@ -83,7 +84,7 @@ static bool measure(face_compare *c, surface *actual, bool align, err *e)
 {
     /* What the jaws do not move is the same in all predictions. */
     if (align) {
-        if (!surface_fit_rigid(actual, &c->skin[PREDICTED], c->map.stable, &c->fit, e)) return false;
+        if (!face_fit(actual, &c->skin[PREDICTED], &c->map, &c->fit, e)) return false;
         c->aligned = true;
         surface_transform(actual, &c->fit.move);
         for (int32_t i = 0; i < c->actual_points.count; i++) {
@@ -92,6 +93,7 @@ static bool measure(face_compare *c, surface *actual, bool align, err *e)
         }
     }
     for (int k = 0; k < c->predictions; k++) {
+        face_outward(&c->skin[k], &c->map, c->frame.posterior); /* a sign is "in front", whatever the triangles */
         c->signed_mm[k] = NEW_ARRAY(double, c->skin[k].vertex_count);
         if (!surface_signed_distance(&c->skin[k], actual, c->signed_mm[k], e)) return false;
         summarise(c, k);

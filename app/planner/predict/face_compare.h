@@ -36,7 +36,7 @@ typedef struct face_compare {
     distance_stats row[PREDICTION_COUNT][ROW_COUNT];
 } face_compare;
 
-/* Refuses what its readers, face_map_make, surface_fit_rigid and surface_signed_distance refuse, a mesh without
+/* Refuses what its readers, face_map_make, face_fit and surface_signed_distance refuse, a mesh without
  * landmarks and faces of which no point was compared. The caller frees *out. */
 bool face_compare_make(const face_compare_input *in, face_compare *out, err *e) MUST_CHECK;
 void face_compare_free(face_compare *c); /* idempotent */
