@@ -12,6 +12,8 @@ typedef struct mesh_file_report {
     int32_t welded_vertices;   /* merged into another at exactly the same place */
     int32_t dropped_triangles; /* that named a vertex twice */
     int32_t split_polygons;    /* of more than three corners, split as fans */
+    int32_t joined_vertices;   /* of loose triangles, made one with another near by */
+    double joined_mm;          /* within which they were joined; 0: none were */
 } mesh_file_report;
 
 typedef enum mesh_space { MESH_SPACE_FROM_FILE, MESH_SPACE_LPS, MESH_SPACE_RAS } mesh_space;
@@ -23,8 +25,9 @@ typedef enum mesh_space { MESH_SPACE_FROM_FILE, MESH_SPACE_LPS, MESH_SPACE_RAS }
  * is LPS; numbers are taken as mm without a guess, but glTF is in metres with +y up by definition and is
  * turned: (x, y, z) m -> 1000 (x, -z, y). Colours of vertices are read from .ply only. Untagged files are taken as
  * `space`, FROM_FILE meaning LPS. The caller frees *out. Refuses (ERR_INPUT, with file) unknown extensions and tags,
- * unreadable or truncated files, vertex numbers out of range, coordinates that are not finite, files without triangles.
- * report may be NULL. */
+ * unreadable or truncated files, vertex numbers out of range, coordinates that are not finite, files without triangles;
+ * (ERR_GEOMETRY) loose triangles. Those whose corners were rounded one by one are joined within 0.01 mm at most, and
+ * vertices are then numbered anew. report may be NULL. */
 bool mesh_read_surface(const char *path, mesh_space space, surface *out, mesh_file_report *report, err *e) MUST_CHECK;
 
 /* Merges vertices at exactly the same place into the first of them, then drops triangles that name a vertex

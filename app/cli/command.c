@@ -1,10 +1,12 @@
 #include "app/cli/command.h"
 #include "geometry/parallel.h"
+#include "geometry/write_whole.h"
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 enum { KEY_JSON = 256, KEY_PROGRESS, THREADS_MAX = 1024 };
@@ -112,8 +114,10 @@ static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int number)
 {
+    const struct itimerval patience = {.it_value = {.tv_sec = 1, .tv_usec = 500000}};
     (void)number;
     interrupted = 1;
+    setitimer(ITIMER_REAL, &patience, NULL);
 }
 
 bool command_interrupted(void) { return interrupted != 0; }
@@ -133,9 +137,23 @@ static bool was_interrupted(void *context)
 
 task command_task(const command_options *o) { return (task){tell_progress, tell_note, was_interrupted, (void *)o}; }
 
-/* The second SIGINT ends the process at once. */
+/* Where nothing asks (CGAL and libraries that draw have no way to be asked) the process ends all the same; results
+ * appear whole or not at all, so nothing half done is seen. */
+static void on_deadline(int number)
+{
+    static const char text[] = "gnathos: interrupted\n";
+    (void)number;
+    (void)!write(STDERR_FILENO, text, sizeof text - 1);
+    whole_folder_abandon_all();
+    _exit(ERR_INTERRUPTED);
+}
+
+/* The second SIGINT or SIGTERM ends the process at once. */
 __attribute__((constructor)) static void listen_for_interrupt(void)
 {
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESETHAND | SA_RESTART};
+    struct sigaction deadline = {.sa_handler = on_deadline};
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGALRM, &deadline, NULL);
 }

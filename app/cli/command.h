@@ -31,5 +31,6 @@ void command_progress_at(const command_options *o, const char *stage, double fra
 /* Prints a record, as json_file_write puts it into a file, and frees it. */
 void command_print_record(json_t *record);
 
-/* True after SIGINT: stop at the next safe point, remove what is half done, return ERR_INTERRUPTED. */
+/* True after SIGINT or SIGTERM: stop at the next safe point, remove what is half done, return ERR_INTERRUPTED. Who has
+ * not done so 1.5 s later is ended. */
 bool command_interrupted(void);

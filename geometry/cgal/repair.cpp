@@ -82,6 +82,7 @@ void drop_small_components(mesh &m, double min_share, repair_report &r)
     std::size_t count = PMP::connected_components(m, number);
     std::vector<double> area(count, 0.0);
     for (auto f : m.faces()) area[number[f]] += PMP::face_area(f, m);
+    if (!count) return;
     double largest = *std::max_element(area.begin(), area.end());
     std::vector<std::size_t> drop;
     r.components_found = static_cast<int32_t>(count);
@@ -220,6 +221,11 @@ void measure_deviation(const mesh &before, const mesh &after, repair_report &r)
     }
 }
 
+void need_triangles(const mesh &m, const char *after)
+{
+    if (CGAL::is_empty(m)) throw refusal(ERR_GEOMETRY, std::string("no triangle is left after ") + after);
+}
+
 bool encloses(const mesh &m) { return CGAL::is_closed(m) && PMP::does_bound_a_volume(m); }
 
 mesh wrapped(const surface &in, double alpha_mm, double offset_mm)
@@ -253,11 +259,13 @@ extern "C" bool repair_solid(const surface *in, const repair_params *p, surface 
         PMP::stitch_borders(m);
         r.degenerate_triangles += drop_flat_faces(m);
         drop_small_components(m, p->min_component_share, r);
+        need_triangles(m, "small pieces were dropped");
         mesh kept = m;
         int32_t open = fill_holes(m, &r);
         m.collect_garbage();
         if (open) throw refusal(ERR_GEOMETRY, std::to_string(open) + " holes cannot be filled");
         r.self_intersections_left = remove_intersections(m, r);
+        need_triangles(m, "intersections were cut out");
         if (!r.self_intersections_left) {
             bool sound = PMP::is_outward_oriented(m);
             PMP::orient_to_bound_a_volume(m);
@@ -272,6 +280,7 @@ extern "C" bool repair_solid(const surface *in, const repair_params *p, surface 
                 throw;
             }
             surface_free(&rest);
+            need_triangles(m, "the wrap");
             r.wrapped = true;
             if (!encloses(m)) throw refusal(ERR_GEOMETRY, "not even the wrap encloses a volume");
         }

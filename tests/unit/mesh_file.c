@@ -1,5 +1,6 @@
 /* Reading and writing surfaces and tetrahedra: bits, tags, welding, refusals. */
 #include "tests/check.h"
+#include "tests/unit/bodies.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/write_whole.h"
@@ -367,6 +368,52 @@ static void vtu_blocks_lie_where_the_header_says(void **state)
     tetmesh_free(&m);
 }
 
+/* Each triangle with corners of its own, rounded apart by up to `apart` each way. */
+static surface loose_ball(double apart)
+{
+    surface ball = body_ball(10, -20, 30, 40, 12), loose = surface_new(3 * ball.triangle_count, ball.triangle_count);
+    uint32_t dice = 1;
+    for (int32_t i = 0; i < loose.vertex_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            dice = dice * 1664525 + 1013904223;
+            loose.xyz[3 * i + c] = ball.xyz[3 * ball.tri[i] + c] + apart * ((dice >> 8) / 8388608.0 - 1);
+        }
+        loose.tri[i] = i;
+    }
+    surface_free(&ball);
+    return loose;
+}
+
+static void loose_triangles_are_joined_near_by_or_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double apart, joined; /* joined < 0: refused */
+    } tries[] = {{"loose.stl", 0.0002, 0.001}, {"loose.ply", 0.0002, 0.001}, {"loose.obj", 0.0002, 0.001},
+                 {"loose.ply", 0.002, 0.01},   {"loose.ply", 0, 0},          {"loose.ply", 0.1, -1},
+                 {"loose.stl", 0.1, -1}};
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++) {
+        err e = {0};
+        mesh_file_report r;
+        int32_t open, crowded;
+        surface s = loose_ball(tries[i].apart), back = {0};
+        assert_ok(mesh_write_surface(&s, tries[i].name, &e));
+        surface_free(&s);
+        if (tries[i].joined < 0) {
+            assert_refused(mesh_read_surface(tries[i].name, MESH_SPACE_FROM_FILE, &back, &r, &e), ERR_GEOMETRY);
+            continue;
+        }
+        assert_ok(mesh_read_surface(tries[i].name, MESH_SPACE_FROM_FILE, &back, &r, &e));
+        surface_edge_census(&back, &open, &crowded);
+        assert_int_equal(open + crowded, 0);
+        assert_int_equal(back.vertex_count, 2 + 11 * 24);
+        assert_near(r.joined_mm, tries[i].joined, 0);
+        assert_int_equal(!r.joined_vertices, !(tries[i].joined > 0));
+        surface_free(&back);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -380,6 +427,7 @@ int main(void)
         cmocka_unit_test(gltf_is_turned_from_metres_with_y_up),
         cmocka_unit_test(broken_files_are_refused_by_name),
         cmocka_unit_test(truncated_files_are_refused),
+        cmocka_unit_test(loose_triangles_are_joined_near_by_or_refused),
         cmocka_unit_test(welding_keeps_the_first_vertex_and_the_order),
         cmocka_unit_test(an_output_appears_whole_or_not_at_all),
         cmocka_unit_test(vtu_blocks_lie_where_the_header_says),

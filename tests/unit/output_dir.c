@@ -2,6 +2,7 @@
 #include "app/planner/store/output_dir.h"
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static char root[64];
@@ -110,6 +111,84 @@ static void a_folder_that_cannot_be_made_is_refused(void **state)
     assert_refused(output_dir_open("/proc/gnathos", false, &d, &e), ERR_RESOURCE);
 }
 
+/* A process that ran and is gone. */
+static long gone(void)
+{
+    pid_t child = fork();
+    if (!child) _exit(0);
+    waitpid(child, NULL, 0);
+    return (long)child;
+}
+
+static void what_killed_runs_left_is_removed(void **state)
+{
+    (void)state;
+    err e = {0};
+    output_dir d;
+    char name[64], line[256];
+    int before = entries();
+    for (int i = 0; i < 3; i++) { /* a gone process, one that had our number, and a file */
+        long process = i == 1 ? (long)getpid() : gone();
+        snprintf(name, sizeof name, ".%s.%ld.part", i < 2 ? "c" : "d", process);
+        snprintf(line, sizeof line, i < 2 ? "mkdir %s; echo x > %s/x" : "echo x > %s", at(name), at(name));
+        assert_int_equal(system(line), 0);
+    }
+    assert_int_equal(mkdir(at(".other.1.part"), 0777), 0);
+    assert_int_equal(entries(), before + 4);
+    assert_ok(output_dir_open(at("c"), false, &d, &e));
+    assert_int_equal(entries(), before + 3); /* the new one, the file of d, and of another target */
+    output_dir_abandon(&d);
+    assert_ok(write_whole(at("d"), "x", 1, &e));
+    assert_int_equal(entries(), before + 2);
+    assert_int_equal(rmdir(at(".other.1.part")), 0);
+    assert_int_equal(unlink(at("d")), 0);
+}
+
+static void two_runs_into_one_folder_are_refused(void **state)
+{
+    (void)state;
+    err e = {0};
+    output_dir d, second;
+    for (int force = 0; force < 2; force++) { /* a new folder, then earlier results */
+        const char *target = force ? at("a") : at("e");
+        assert_ok(output_dir_open(target, force, &d, &e));
+        pid_t child = fork();
+        if (!child) _exit(output_dir_open(target, force, &second, &e) ? 99 : (int)e.code);
+        int status;
+        waitpid(child, &status, 0);
+        assert_int_equal(WEXITSTATUS(status), ERR_RESOURCE);
+        assert_refused(output_dir_open(target, force, &second, &e), ERR_RESOURCE);
+        output_dir_abandon(&d);
+        assert_ok(output_dir_open(target, force, &d, &e));
+        output_dir_abandon(&d);
+    }
+}
+
+/* As a signal handler does it; a forked child leaves the folder of its parent alone. */
+static void a_sudden_end_leaves_no_folder(void **state)
+{
+    (void)state;
+    err e = {0};
+    output_dir d;
+    int before = entries(), status;
+    assert_ok(output_dir_open(at("f"), false, &d, &e));
+    pid_t child = fork();
+    if (!child) {
+        whole_folder_abandon_all();
+        _exit(0);
+    }
+    waitpid(child, &status, 0);
+    assert_int_equal(entries(), before + 1);
+    fill(&d, "x", "y");
+    char *inner = output_dir_file(&d, "stills");
+    assert_int_equal(mkdir(inner, 0777), 0);
+    free(inner);
+    fill(&d, "stills/y", "z");
+    whole_folder_abandon_all();
+    assert_int_equal(entries(), before);
+    output_dir_abandon(&d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -117,6 +196,9 @@ int main(void)
         cmocka_unit_test(an_abandoned_folder_leaves_nothing),
         cmocka_unit_test(earlier_results_are_replaced_by_force_only),
         cmocka_unit_test(what_gnathos_did_not_write_is_never_replaced),
+        cmocka_unit_test(what_killed_runs_left_is_removed),
+        cmocka_unit_test(two_runs_into_one_folder_are_refused),
+        cmocka_unit_test(a_sudden_end_leaves_no_folder),
         cmocka_unit_test(a_folder_that_cannot_be_made_is_refused),
     };
     return cmocka_run_group_tests(tests, make_root, drop_root);

@@ -2,6 +2,7 @@
 #include "tests/unit/bodies.h"
 #include "geometry/mesh_file.h"
 #include "geometry/repair.h"
+#include "geometry/vec.h"
 
 /* Repairs and frees s; checks what every result promises. */
 static surface repaired(surface s, repair_report *r)
@@ -134,6 +135,27 @@ static void refuses_empty_and_broken_surfaces(void **state)
     surface_free(&box);
 }
 
+static void refuses_what_leaves_nothing(void **state)
+{
+    (void)state;
+    err e = {0};
+    repair_params p = repair_params_default();
+    surface ball = body_ball(0, 0, 0, 40, 12), loose = surface_new(3 * ball.triangle_count, ball.triangle_count), out;
+    uint32_t dice = 1;
+    for (int32_t i = 0; i < 3 * ball.triangle_count; i++) {
+        for (int c = 0; c < 3; c++) {
+            dice = dice * 1664525 + 1013904223;
+            loose.xyz[3 * i + c] = ball.xyz[3 * ball.tri[i] + c] + 0.0002 * (dice >> 8) / 16777216.0;
+        }
+        loose.tri[i] = i;
+    }
+    assert_refused(repair_solid(&loose, &p, &out, NULL, &e), ERR_GEOMETRY);
+    for (int32_t i = 0; i < 3 * ball.triangle_count; i++) vec_copy(ball.xyz, ball.xyz + 3 * (i % ball.vertex_count));
+    assert_refused(repair_solid(&ball, &p, &out, NULL, &e), ERR_GEOMETRY); /* all in one place */
+    surface_free(&ball);
+    surface_free(&loose);
+}
+
 static void a_wrap_encloses_its_input(void **state)
 {
     (void)state;
@@ -192,6 +214,7 @@ int main(void)
         cmocka_unit_test(bodies_that_touch_in_a_point_or_an_edge_are_parted),
         cmocka_unit_test(a_fold_is_mended_where_it_is),
         cmocka_unit_test(refuses_empty_and_broken_surfaces),
+        cmocka_unit_test(refuses_what_leaves_nothing),
         cmocka_unit_test(a_wrap_encloses_its_input),
         cmocka_unit_test(scanned_bones_come_out_solid),
     };

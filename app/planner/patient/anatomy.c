@@ -7,12 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool read_solid(const case_file *c, case_surface which, surface *raw, surface *solid, repair_report *report,
-                       err *e)
+static bool stopped(const task *watch, err *e)
 {
+    return task_interrupted(watch) && !err_set(e, ERR_INTERRUPTED, "interrupted");
+}
+
+static bool read_solid(const case_file *c, case_surface which, const task *watch, surface *raw, surface *solid,
+                       repair_report *report, err *e)
+{
+    if (stopped(watch, e)) return false;
+    mesh_file_report read;
     repair_params p = repair_params_default();
     surface in = {0};
-    if (!mesh_read_surface(c->surface[which], case_file_space(c), &in, NULL, e)) return false;
+    if (!mesh_read_surface(c->surface[which], case_file_space(c), &in, &read, e)) return false;
+    if (read.joined_vertices)
+        task_note(watch, "%s: warning: holds loose triangles; %d corners were joined with others within %g mm",
+                  c->surface[which], read.joined_vertices, read.joined_mm);
     if (!repair_solid(&in, &p, solid, report, e)) {
         surface_free(&in);
         return err_prefix(e, "%s", c->surface[which]);
@@ -25,16 +35,17 @@ static bool read_solid(const case_file *c, case_surface which, surface *raw, sur
 }
 
 /* A bone, united with its teeth where the case has them apart. */
-static bool read_bone(const case_file *c, case_surface bone, case_surface teeth, surface *out, repair_report *report,
-                      err *e)
+static bool read_bone(const case_file *c, case_surface bone, case_surface teeth, const task *watch, surface *out,
+                      repair_report *report, err *e)
 {
     surface part[2] = {{0}};
-    if (!read_solid(c, bone, NULL, &part[0], report, e)) return false;
+    if (!read_solid(c, bone, watch, NULL, &part[0], report, e)) return false;
     if (!c->surface[teeth][0]) {
         *out = part[0];
         return true;
     }
-    bool ok = read_solid(c, teeth, NULL, &part[1], NULL, e) && boolean_unite(part, 2, out, e);
+    bool ok =
+        read_solid(c, teeth, watch, NULL, &part[1], NULL, e) && !stopped(watch, e) && boolean_unite(part, 2, out, e);
     surface_free(&part[0]);
     surface_free(&part[1]);
     return ok;
@@ -88,12 +99,12 @@ bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out
     anatomy a = {0};
     task_progress(watch, "reading and repairing the surfaces", 0);
     bool ok = landmarks_read(c->landmarks, &a.points, NULL, e) && head_frame_from_landmarks(&a.points, &a.frame, e) &&
-              read_bone(c, CASE_SKULL, CASE_UPPER_TEETH, &a.skull, &a.skull_repair, e) &&
-              read_bone(c, CASE_MANDIBLE, CASE_LOWER_TEETH, &a.mandible, &a.mandible_repair, e) &&
-              (!skin || read_solid(c, CASE_SKIN, &a.skin, &a.closed_skin, &a.skin_repair, e));
+              read_bone(c, CASE_SKULL, CASE_UPPER_TEETH, watch, &a.skull, &a.skull_repair, e) &&
+              read_bone(c, CASE_MANDIBLE, CASE_LOWER_TEETH, watch, &a.mandible, &a.mandible_repair, e) &&
+              (!skin || read_solid(c, CASE_SKIN, watch, &a.skin, &a.closed_skin, &a.skin_repair, e));
     if (ok) {
         task_progress(watch, "cutting the bones", 0.2);
-        ok = cut(c, &a, e);
+        ok = !stopped(watch, e) && cut(c, &a, e) && !stopped(watch, e);
     }
     if (!ok) {
         anatomy_free(&a);

@@ -38,6 +38,14 @@ static bool is_wrong_size(const case_file *c, double d, issue_list *issues)
     return true;
 }
 
+static void tell_joined(const char *path, const mesh_file_report *r, issue_list *issues)
+{
+    if (r->joined_vertices)
+        issue_add(issues, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
+                  "holds loose triangles; %d corners were joined with others within %g mm", r->joined_vertices,
+                  r->joined_mm);
+}
+
 static void check_closed(const char *path, case_surface s, check_found *found, issue_list *issues)
 {
     int32_t open = found->open_edges[s], crowded = found->crowded_edges[s];
@@ -72,6 +80,7 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
             surface_free(s);
             continue;
         }
+        tell_joined(path, &found->read[i], issues);
         surface_edge_census(s, &found->open_edges[i], &found->crowded_edges[i]);
         found->diagonal_mm[i] = diagonal(s);
         if (i == CASE_SKIN) found->wrong_size[i] = is_wrong_size(c, found->diagonal_mm[i], issues);

@@ -75,6 +75,10 @@ static bool read_mesh(const import_params *p, const char *path, import_part *par
 {
     surface raw;
     if (!mesh_read_surface(path, p->space, &raw, &part->read, e)) return false;
+    if (part->read.joined_vertices)
+        issue_add(notes, ISSUE_WARNING, ERR_NONE, path, 0, NULL,
+                  "holds loose triangles; %d corners were joined with others within %g of the file's unit",
+                  part->read.joined_vertices, part->read.joined_mm);
     mesh_weld(&raw, &part->read);
     if (!raw.triangle_count) {
         surface_free(&raw);

@@ -162,6 +162,10 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
     tissue_input in = {&a.closed_skin, &bones, &a.segments, &a.points, &a.frame};
     bool ok = tissue_make(&in, &c->tissue, &p.tissue, &r, e);
     surface_free(&bones);
+    if (ok && task_interrupted(watch)) {
+        tissue_free(&p.tissue);
+        ok = err_set(e, ERR_INTERRUPTED, "interrupted");
+    }
     if (ok) {
         p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
         r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;

@@ -1,6 +1,5 @@
 #include "app/planner/store/output_dir.h"
 #include "geometry/mem.h"
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -29,54 +28,12 @@ static bool is_ours(const char *folder)
 bool output_dir_open(const char *target, bool force, output_dir *out, err *e)
 {
     struct stat info;
-    bool folder = !stat(target, &info) && S_ISDIR(info.st_mode);
-    bool earlier = folder && is_ours(target);
-    output_dir d = {.replaces = earlier && force};
+    bool earlier = !stat(target, &info) && S_ISDIR(info.st_mode) && is_ours(target);
     if (earlier && !force) return err_at(e, ERR_INPUT, target, 0, NULL, "holds earlier results; --force replaces them");
-    if (!d.replaces) {
-        if (!whole_folder_open(target, &d.part, e)) return false;
-        *out = d;
-        return true;
-    }
-    char *clean = mem_text(target);
-    for (size_t n = strlen(clean); n > 1 && clean[n - 1] == '/'; n--) clean[n - 1] = 0;
-    size_t size = strlen(clean) + 32;
-    char *beside = NEW_ARRAY(char, size);
-    snprintf(beside, size, "%s.%ld", clean, (long)getpid());
-    bool ok = whole_folder_open(beside, &d.part, e);
-    free(beside);
-    if (ok) {
-        free(d.part.path);
-        d.part.path = clean;
-        *out = d;
-    } else {
-        free(clean);
-    }
-    return ok;
+    return earlier ? whole_folder_open_over(target, &out->part, e) : whole_folder_open(target, &out->part, e);
 }
 
-bool output_dir_close(output_dir *d, err *e)
-{
-    if (!d->replaces) return whole_folder_close(&d->part, e);
-    size_t size = strlen(d->part.path) + 32;
-    char *aside = NEW_ARRAY(char, size), *target = mem_text(d->part.path);
-    snprintf(aside, size, "%s.old.%ld", target, (long)getpid());
-    bool ok =
-        !rename(target, aside) || err_at(e, ERR_RESOURCE, target, 0, NULL, "cannot be replaced: %s", strerror(errno));
-    if (!ok) {
-        whole_folder_abandon(&d->part);
-    } else if (whole_folder_close(&d->part, e)) {
-        whole_folder old = {.path = mem_text(target), .temporary = mem_text(aside)};
-        whole_folder_abandon(&old);
-    } else {
-        ok = false;
-        if (rename(aside, target)) err_prefix(e, "the earlier results are in %s", aside);
-    }
-    free(aside);
-    free(target);
-    *d = (output_dir){0};
-    return ok;
-}
+bool output_dir_close(output_dir *d, err *e) { return whole_folder_close(&d->part, e); }
 
 void output_dir_abandon(output_dir *d)
 {

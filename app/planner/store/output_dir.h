@@ -4,12 +4,11 @@
 
 typedef struct output_dir {
     whole_folder part;
-    bool replaces; /* an earlier output of gnathos stands in its place until output_dir_close */
 } output_dir;
 
 /* Refuses (ERR_INPUT) a target that is in use: something that gnathos did not write (a folder without
  * one of its records) always, an earlier output unless `force`. Refuses (ERR_RESOURCE) a folder
- * that cannot be written. */
+ * that cannot be written or that another process is making. */
 bool output_dir_open(const char *target, bool force, output_dir *out, err *e) MUST_CHECK;
 /* After refusal the earlier output, if any, is as it was. */
 bool output_dir_close(output_dir *d, err *e) MUST_CHECK;

@@ -3,6 +3,7 @@
 #include "geometry/mem.h"
 #include "geometry/src/files/file_name.h"
 #include "geometry/src/files/gltf_check.h"
+#include "geometry/src/files/join_corners.h"
 #include "geometry/src/files/read_mesh.h"
 #include <ctype.h>
 #include <math.h>
@@ -202,6 +203,13 @@ bool mesh_read_surface(const char *file_and_node, mesh_space space, surface *out
         surface_free(&s);
         return err_at(e, ERR_INPUT, path, 0, NULL, "holds no triangles");
     }
+    corner_join joined;
+    if (!join_corners(&s, path, &joined, e)) {
+        surface_free(&s);
+        return false;
+    }
+    r.joined_vertices = joined.joined_vertices;
+    r.joined_mm = joined.distance_mm;
     *out = s;
     if (report) *report = r;
     return true;

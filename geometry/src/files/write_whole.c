@@ -1,24 +1,13 @@
 #include "geometry/write_whole.h"
 #include "geometry/mem.h"
+#include "geometry/src/files/temporary.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* "folder/.name.<process>.part": hidden, in the same folder, so that the rename stays on one file system. */
-static char *temporary_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    int folder = slash ? (int)(slash - path) + 1 : 0;
-    size_t size = strlen(path) + 40;
-    char *name = NEW_ARRAY(char, size);
-    snprintf(name, size, "%.*s.%s.%ld.part", folder, path, path + folder, (long)getpid());
-    return name;
-}
 
 static bool cannot_write(const char *path, int number, err *e)
 {
@@ -43,7 +32,7 @@ static void sync_folder_of(const char *path)
 bool whole_file_open(const char *path, whole_file *out, err *e)
 {
     char *temporary = temporary_name(path);
-    unlink(temporary); /* of a process that died and had our number */
+    temporary_sweep(path, NULL);
     int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     FILE *stream = fd >= 0 ? fdopen(fd, "wb") : NULL;
     if (!stream) {
@@ -51,6 +40,7 @@ bool whole_file_open(const char *path, whole_file *out, err *e)
         free(temporary);
         return false;
     }
+    temporary_lock(fd);
     *out = (whole_file){.stream = stream, .path = mem_text(path), .temporary = temporary};
     return true;
 }
@@ -96,12 +86,6 @@ bool write_whole(const char *path, const void *bytes, size_t size, err *e)
     return whole_file_close(&w, e);
 }
 
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
-{
-    (void)info, (void)kind, (void)walk;
-    return remove(path);
-}
-
 /* 0 does not exist, 1 an empty folder, 2 anything else */
 static int occupied(const char *path)
 {
@@ -116,44 +100,100 @@ static int occupied(const char *path)
     return found;
 }
 
-bool whole_folder_open(const char *path, whole_folder *out, err *e)
+static bool is_busy(const char *path, const char *own, err *e)
 {
-    char *clean = mem_text(path);
-    for (size_t n = strlen(clean); n > 1 && clean[n - 1] == '/'; n--) clean[n - 1] = 0;
-    char *temporary = NULL;
-    if (!*clean) {
-        err_set(e, ERR_USAGE, "the name of the new folder is empty");
-    } else if (occupied(clean) == 2) {
-        err_at(e, ERR_INPUT, clean, 0, NULL, "exists and is not an empty folder; choose a new name or remove it");
-    } else {
-        temporary = temporary_name(clean);
-        nftw(temporary, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
-        if (!mkdir(temporary, 0777)) {
-            *out = (whole_folder){.path = clean, .temporary = temporary};
-            return true;
-        }
-        cannot_write(clean, errno, e);
+    long process = temporary_sweep(path, own);
+    return process &&
+           !err_at(e, ERR_RESOURCE, path, 0, NULL,
+                   "another gnathos (process %ld) is writing it; wait for its end or choose a new name", process);
+}
+
+/* Two that start at once may both be refused; never do both go on. */
+static bool make_locked(whole_folder *w, err *e)
+{
+    if (is_busy(w->path, NULL, e)) return false;
+    if (mkdir(w->temporary, 0777)) return cannot_write(w->path, errno, e);
+    w->lock = open(w->temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    bool ok = w->lock >= 0 || cannot_write(w->path, errno, e);
+    if (ok) temporary_lock(w->lock);
+    ok = ok && !is_busy(w->path, w->temporary, e);
+    if (ok) {
+        temporary_remember(w->lock, w->temporary);
+        return true;
     }
-    free(temporary);
-    free(clean);
+    if (w->lock >= 0) close(w->lock);
+    rmdir(w->temporary);
     return false;
 }
 
+static bool open_folder(const char *path, bool replaces, whole_folder *out, err *e)
+{
+    whole_folder w = {.path = mem_text(path), .replaces = replaces};
+    char *clean = w.path;
+    for (size_t n = strlen(clean); n > 1 && clean[n - 1] == '/'; n--) clean[n - 1] = 0;
+    bool ok = *clean || err_set(e, ERR_USAGE, "the name of the new folder is empty");
+    if (ok && !replaces && occupied(clean) == 2)
+        ok = err_at(e, ERR_INPUT, clean, 0, NULL, "exists and is not an empty folder; choose a new name or remove it");
+    w.temporary = temporary_name(clean);
+    ok = ok && make_locked(&w, e);
+    if (ok) {
+        *out = w;
+    } else {
+        free(w.path);
+        free(w.temporary);
+    }
+    return ok;
+}
+
+bool whole_folder_open(const char *path, whole_folder *out, err *e) { return open_folder(path, false, out, e); }
+
+bool whole_folder_open_over(const char *path, whole_folder *out, err *e) { return open_folder(path, true, out, e); }
+
 void whole_folder_abandon(whole_folder *w)
 {
-    if (w->temporary) nftw(w->temporary, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
+    if (w->temporary) {
+        temporary_remove(w->temporary);
+        temporary_forget(w->lock);
+        close(w->lock);
+    }
     free(w->path);
     free(w->temporary);
     *w = (whole_folder){0};
 }
 
+/* For file systems that cannot exchange two names: for a moment the target is not there. */
+static bool replace_in_two_steps(const whole_folder *w)
+{
+    size_t size = strlen(w->path) + 32;
+    char *aside = NEW_ARRAY(char, size);
+    snprintf(aside, size, "%s.old.%ld", w->path, (long)getpid());
+    bool moved = !rename(w->path, aside), done = moved && !rename(w->temporary, w->path);
+    int number = errno;
+    if (done)
+        temporary_remove(aside);
+    else if (moved)
+        (void)!rename(aside, w->path);
+    errno = number;
+    free(aside);
+    return done;
+}
+
 bool whole_folder_close(whole_folder *w, err *e)
 {
-    bool good = !rename(w->temporary, w->path); /* an empty target folder is replaced */
+    bool exchanged = w->replaces && !renameat2(AT_FDCWD, w->temporary, AT_FDCWD, w->path, RENAME_EXCHANGE);
+    bool good = exchanged;
+    if (!good && w->replaces && errno != ENOENT)
+        good = (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) && replace_in_two_steps(w);
+    else if (!good)
+        good = !rename(w->temporary, w->path); /* an empty target folder is replaced */
     if (good) {
         sync_folder_of(w->path);
-        free(w->temporary);
-        w->temporary = NULL;
+        if (!exchanged) { /* else the earlier results have the temporary name now */
+            temporary_forget(w->lock);
+            close(w->lock);
+            free(w->temporary);
+            w->temporary = NULL;
+        }
     } else {
         cannot_write(w->path, errno, e);
     }
