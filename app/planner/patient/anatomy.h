@@ -17,7 +17,7 @@ typedef struct anatomy {
     cut_report cuts;
 } anatomy;
 
-/* Reads and repairs skull and mandible and cuts them. `skin` false leaves the skin out. Asks watch, which may be NULL, between its steps.
- * The caller frees *out. */
+/* Reads and repairs skull and mandible and cuts them. `skin` false leaves the skin out. Asks watch, which may be NULL,
+ * between its steps. The caller frees *out. */
 bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out, err *e) MUST_CHECK;
 void anatomy_free(anatomy *a);

@@ -1,5 +1,6 @@
 #include "app/planner/patient/prepared.h"
 #include "app/planner/patient/prepared_report.h"
+#include "app/planner/patient/prepared_sound.h"
 #include "app/planner/store/pack_file.h"
 #include "geometry/clock.h"
 #include "geometry/mem.h"
@@ -38,6 +39,31 @@ bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
 
 /* ---- to and from the file: every array under its name ---- */
 
+/* As many elements as a count may say; NULL for more. */
+static void *take(const pack_file *f, const char *name, size_t element, int32_t *count)
+{
+    size_t n = 0;
+    void *array = pack_take(f, name, element, &n);
+    if (array && n > INT32_MAX / 4) {
+        free(array);
+        return NULL;
+    }
+    *count = (int32_t)n;
+    return array;
+}
+
+/* The text of an entry, NULL where it does not end. */
+static char *take_text(const pack_file *f, const char *name)
+{
+    size_t n = 0;
+    char *text = pack_take(f, name, 1, &n);
+    if (text && (!n || text[n - 1])) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
 static void put_surface(pack_file *f, const char *name, const surface *s)
 {
     char key[PACK_NAME_SIZE];
@@ -52,16 +78,14 @@ static void put_surface(pack_file *f, const char *name, const surface *s)
 static bool take_surface(const pack_file *f, const char *name, surface *s)
 {
     char key[PACK_NAME_SIZE];
-    size_t vertices = 0, triangles = 0, colours = 0;
+    int32_t colours = 0;
     snprintf(key, sizeof key, "%.24s.xyz", name);
-    s->xyz = pack_take(f, key, 3 * sizeof *s->xyz, &vertices);
+    s->xyz = take(f, key, 3 * sizeof *s->xyz, &s->vertex_count);
     snprintf(key, sizeof key, "%.24s.tri", name);
-    s->tri = pack_take(f, key, 3 * sizeof *s->tri, &triangles);
+    s->tri = take(f, key, 3 * sizeof *s->tri, &s->triangle_count);
     snprintf(key, sizeof key, "%.24s.rgb", name);
-    s->rgb = pack_take(f, key, 3, &colours);
-    s->vertex_count = (int32_t)vertices;
-    s->triangle_count = (int32_t)triangles;
-    return s->xyz && s->tri && (!s->rgb || colours == vertices);
+    s->rgb = take(f, key, 3, &colours);
+    return s->xyz && s->tri && (!s->rgb || colours == s->vertex_count);
 }
 
 static void part_key(int segment, char key[PACK_NAME_SIZE])
@@ -69,12 +93,13 @@ static void part_key(int segment, char key[PACK_NAME_SIZE])
     snprintf(key, PACK_NAME_SIZE, "part.%s", segment_name((segment_id)segment));
 }
 
-static void fill_pack(const prepared *p, pack_file *f)
+static void fill_pack(const prepared *p, const char hash[HASH_TEXT_SIZE], pack_file *f)
 {
     const tissue *t = &p->tissue;
     size_t nodes = (size_t)t->mesh.vertex_count, tets = (size_t)t->mesh.tet_count, pairs = (size_t)t->attach.pair_count,
            points = (size_t)p->skin_on_tissue.point_count;
     char key[PACK_NAME_SIZE], *report = json_dumps(p->report, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    pack_put(f, "hash", hash, strlen(hash) + 1);
     pack_put(f, "landmarks", p->points.point, (size_t)p->points.count * sizeof *p->points.point);
     pack_put(f, "frame", &p->frame, sizeof p->frame);
     put_surface(f, "skin", &p->skin);
@@ -101,52 +126,50 @@ static void fill_pack(const prepared *p, pack_file *f)
 
 static bool take_tissue(const pack_file *f, tissue *t)
 {
-    size_t n[8] = {0}, one = 0;
-    t->mesh.xyz = pack_take(f, "node.xyz", 3 * sizeof(double), &n[0]);
-    t->mesh.tet = pack_take(f, "tet.node", 4 * sizeof(int32_t), &n[1]);
-    t->mesh.region = pack_take(f, "tet.region", sizeof(int32_t), &n[2]);
-    t->side = pack_take(f, "node.side", 1, &n[3]);
-    t->attach.kind = pack_take(f, "node.kind", 1, &n[4]);
-    t->attach.segment = pack_take(f, "node.segment", sizeof(int32_t), &n[5]);
-    t->attach.normal = pack_take(f, "node.normal", 3 * sizeof(double), &n[6]);
-    t->attach.pair = pack_take(f, "pair.node", 2 * sizeof(int32_t), &n[7]);
-    size_t pairs = 0;
-    t->attach.pair_normal = pack_take(f, "pair.normal", 3 * sizeof(double), &pairs);
-    lip_sheet *lips = pack_take(f, "lips", sizeof *lips, &one);
-    if (lips) t->lips = *lips;
+    int32_t n[7] = {0};
+    attach_map *a = &t->attach;
+    t->mesh.xyz = take(f, "node.xyz", 3 * sizeof(double), &t->mesh.vertex_count);
+    t->mesh.tet = take(f, "tet.node", 4 * sizeof(int32_t), &t->mesh.tet_count);
+    t->mesh.region = take(f, "tet.region", sizeof(int32_t), &n[0]);
+    t->side = take(f, "node.side", 1, &n[1]);
+    a->kind = take(f, "node.kind", 1, &n[2]);
+    a->segment = take(f, "node.segment", sizeof(int32_t), &n[3]);
+    a->normal = take(f, "node.normal", 3 * sizeof(double), &n[4]);
+    a->pair = take(f, "pair.node", 2 * sizeof(int32_t), &a->pair_count);
+    a->pair_normal = take(f, "pair.normal", 3 * sizeof(double), &n[5]);
+    lip_sheet *lips = take(f, "lips", sizeof *lips, &n[6]);
+    bool ok = lips && n[6] == 1;
+    if (ok) t->lips = *lips;
     free(lips);
-    t->mesh.vertex_count = t->attach.node_count = (int32_t)n[0];
-    t->mesh.tet_count = (int32_t)n[1];
-    t->attach.pair_count = (int32_t)n[7];
-    err ignored = {0};
-    return t->mesh.xyz && t->mesh.tet && t->mesh.region && t->side && t->attach.kind && t->attach.segment &&
-           t->attach.normal && t->attach.pair && t->attach.pair_normal && one == 1 && n[2] == n[1] && n[3] == n[0] &&
-           n[4] == n[0] && n[5] == n[0] && n[6] == n[0] && pairs == n[7] && tetmesh_check(&t->mesh, &ignored);
+    a->node_count = t->mesh.vertex_count;
+    for (int i = 1; i < 5; i++) ok = ok && n[i] == a->node_count;
+    return ok && t->mesh.xyz && t->mesh.tet && t->mesh.region && t->side && a->kind && a->segment && a->normal &&
+           a->pair && a->pair_normal && n[0] == t->mesh.tet_count && n[5] == a->pair_count;
 }
 
-static bool take_pack(const pack_file *f, prepared *p)
+static bool take_pack(const pack_file *f, const char hash[HASH_TEXT_SIZE], prepared *p)
 {
-    size_t count = 0, one = 0, weights = 0;
-    char key[PACK_NAME_SIZE];
-    p->points.point = pack_take(f, "landmarks", sizeof *p->points.point, &count);
-    p->points.count = (int32_t)count;
-    head_frame *frame = pack_take(f, "frame", sizeof *frame, &one);
-    if (frame) p->frame = *frame;
-    free(frame);
-    bool ok = p->points.point && one == 1 && take_surface(f, "skin", &p->skin) &&
-              take_surface(f, "kerf", &p->segments.kerf) && take_tissue(f, &p->tissue);
+    int32_t one = 0, weights = 0;
+    char key[PACK_NAME_SIZE], *whose = take_text(f, "hash"), *report = take_text(f, "report");
+    bool ok = whose && !strcmp(whose, hash);
+    p->points.point = take(f, "landmarks", sizeof *p->points.point, &p->points.count);
+    head_frame *frame = take(f, "frame", sizeof *frame, &one);
+    ok = ok && frame && one == 1;
+    if (ok) p->frame = *frame;
+    ok = ok && p->points.point && take_surface(f, "skin", &p->skin) && take_surface(f, "kerf", &p->segments.kerf) &&
+         take_tissue(f, &p->tissue);
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         part_key(s, key);
-        ok = take_surface(f, key, &p->segments.part[s]) && ok;
+        ok = ok && take_surface(f, key, &p->segments.part[s]);
     }
-    p->skin_on_tissue.tet = pack_take(f, "skin.tet", sizeof(int32_t), &count);
-    p->skin_on_tissue.weight = pack_take(f, "skin.weight", 4 * sizeof(double), &weights);
-    p->skin_on_tissue.point_count = (int32_t)count;
-    char *report = pack_take(f, "report", 1, &one);
+    p->skin_on_tissue.tet = take(f, "skin.tet", sizeof(int32_t), &p->skin_on_tissue.point_count);
+    p->skin_on_tissue.weight = take(f, "skin.weight", 4 * sizeof(double), &weights);
     if (report) p->report = json_loads(report, 0, NULL);
     free(report);
-    return ok && p->skin_on_tissue.tet && p->skin_on_tissue.weight && weights == count &&
-           (int32_t)count == p->skin.vertex_count && p->report;
+    free(frame);
+    free(whose);
+    return ok && p->skin_on_tissue.tet && p->skin_on_tissue.weight && weights == p->skin_on_tissue.point_count &&
+           p->report && prepared_is_sound(p);
 }
 
 static bool make(const case_file *c, const task *watch, prepared *out, err *e)
@@ -194,7 +217,7 @@ bool prepared_get(const case_file *c, const char *cache, const task *watch, prep
     prepared p = {0};
     err unreadable = {0};
     if (pack_read(path, &f, &unreadable)) {
-        p.reused = take_pack(&f, &p);
+        p.reused = take_pack(&f, hash, &p);
         pack_free(&f);
         if (!p.reused) prepared_free(&p);
     }
@@ -207,7 +230,7 @@ bool prepared_get(const case_file *c, const char *cache, const task *watch, prep
                           "is prepared once",
                           strerror(errno));
         }
-        fill_pack(&p, &f);
+        fill_pack(&p, hash, &f);
         bool ok = pack_write(&f, path, e);
         pack_free(&f);
         if (!ok) {
