@@ -11,6 +11,6 @@ run() { "$@" >"$build.log" 2>&1 || { grep -E 'error|FAILED|undefined' "$build.lo
 run cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O1 \
     -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=c++ -DCMAKE_CXX_LINK_EXECUTABLE="$link" \
     -DGNATHOS_SANITIZE=address,undefined,fuzzer-no-link
-run cmake --build "$build" -t "${@:-all}"
+run cmake --build "$build" -t "${@:-all}" -- -k 0
 rm -f "$build.log"
 echo "built with clang: no warning"

@@ -94,7 +94,7 @@ static void far_outside_it_says_so_and_inside_it_never_does(void **state)
     assert_near(v.d, 2.9, 0.02);
     distance_field_at(f, (double[]){3, -2, 7 + radius + 8}, false, &v);
     assert_true(v.d == HUGE_VAL);
-    distance_field_at(f, (double[]){1e6, -1e9, NAN}, false, &v);
+    distance_field_at(f, (double[]){1e6, -1e9, (double)NAN}, false, &v);
     assert_true(v.d == HUGE_VAL);
     double hit[3], normal[3];
     assert_true(distance_field_leave(f, (double[]){3, -2, 9}, (double[]){0, 0, 1}, 8, hit, normal));
