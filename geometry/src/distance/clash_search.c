@@ -208,6 +208,7 @@ static void search(hunt *h, const clash_body *own, unsigned kinds)
 {
     double tolerance = h->other->tolerance_mm;
     candidates all = find_candidates(h, &own->patches, kinds);
+    if (!all.count) return;
     double promised = promise(h, &all);
     int32_t count = 0; /* of those that may better what is promised */
     for (candidate *c = all.list; c < all.list + all.count; c++) {
