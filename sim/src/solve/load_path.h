@@ -1,15 +1,15 @@
 /* load_path: from the bones at rest to where they go, in as many loads as it takes.
  *
- *    GUESS --- solved ------------------------> REACHED
- *      | failed: from rest                       ^   ^
- *      v                                         |   |
- *    EVERY --- the last load is solved ----------+   |
- *      ^  \--- failed, no halving is left --> STOPPED |
- *      | failed: from rest                           |
- *    LATE ---- the last load is solved --------------+
+ *    GUESS --- solved ----------------------------> REACHED
+ *      | failed: from rest                           ^  ^
+ *      v                                             |  |
+ *    EVERY --- the last load is solved --------------+  |
+ *      ^  `--- failed, no halving left --> STOPPED      |
+ *      | failed: from rest                              |
+ *    LATE ---- the last load is solved -----------------+
  *
  * and in LATE and EVERY from load to load: solved, the next one is aimed at; failed in EVERY, the step is halved, and
- * doubled again after two loads that were solved.
+ * doubled again from the second load on that is solved.
  *
  * GUESS  one load, the whole way, from a guess at the result
  * LATE   steps from rest, contact at the last load only: what is held keeps in touch without it
