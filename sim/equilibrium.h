@@ -14,7 +14,7 @@
  * step that a few nodes would take too deep is not cut for all: those nodes give way at once, each to where
  * the tissue around it holds. A tet may invert on the way and in the result: the Stable Neo-Hookean energies
  * allow it, so it is counted, not hidden. Several equilibria can exist; the one reached depends on the load
- * path, which is recorded. */
+ * path, which is recorded; src/solve/load_path.h and load.h draw what comes when. */
 #pragma once
 #include "sim/assemble.h"
 #include "sim/contact.h"
