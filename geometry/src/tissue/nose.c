@@ -79,10 +79,11 @@ static bool in_septum(const place *w, const tetmesh *m, int32_t t, const nose_pa
         low = fmin(low, vec_dot(d, w->left));
         high = fmax(high, vec_dot(d, w->left));
     }
-    if (low > 0 || high < 0) return false;
+    if (low > 0 || high < 0 || !in_borders(w, centre)) return false;
+    if (!(nearest_point(w->skin, centre, NULL, NULL) > p->dorsum_mm)) return false;
     for (int k = 0; k < 4; k++)
         gap = fmin(gap, gap_to_maxilla(w, m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + (size_t)k]));
-    return gap > p->foot_mm && in_borders(w, centre) && nearest_point(w->skin, centre, NULL, NULL) > p->dorsum_mm;
+    return gap > p->foot_mm;
 }
 
 static void mark(const tissue *t, const place *w, const nose_params *p, nose *n)

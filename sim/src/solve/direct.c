@@ -31,6 +31,13 @@ void direct_begin_load(direct_state *m)
     m->need = BLEND_NONE;
 }
 
+void direct_adopt(direct_state *m, double residual)
+{
+    m->has_factor = true;
+    m->since_factor = 0;
+    m->residual_at_factor = residual;
+}
+
 void direct_expect_deep(direct_state *m)
 {
     m->blend = 1;

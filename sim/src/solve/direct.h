@@ -30,6 +30,8 @@ void direct_free(direct_state *m);
 void direct_begin_load(direct_state *m);
 /* The next step needs a new factor: the energy has changed. */
 void direct_forget(direct_state *m);
+/* The factor at hand is of a place near by: it will do for the first steps. */
+void direct_adopt(direct_state *m, double residual);
 /* The rate at which steps pay is counted from this residual, mN. */
 void direct_measure_from(direct_state *m, double residual);
 /* The first contacts of a load are deep: the clamped matrix is where to begin. */

@@ -10,6 +10,7 @@ void solver_forget(solver *t)
 {
     multigrid_destroy(&t->grid);
     solver_forget_blocks(t);
+    t->factor_kept = false;
 }
 
 void solver_inherit(solver *t, const solver *before)
@@ -90,7 +91,12 @@ static bool predict(solver *t, const rigid from[SEGMENT_COUNT], const rigid to[S
 bool solver_follow(solver *t, const rigid from[SEGMENT_COUNT], const rigid to[SEGMENT_COUNT], const double *x,
                    const solve_params *params, equilibrium *out, err *e)
 {
-    if (!t->touch) return solver_solve(t, to, x, params, out, e);
+    if (!t->touch) {
+        t->factor_used = t->factor_kept;
+        bool ok = solver_solve(t, to, x, params, out, e);
+        t->factor_used = false;
+        return ok;
+    }
     double *guess = NEW_ARRAY(double, 3 * (size_t)t->b.node_count);
     equilibrium spent = {0};
     int before = t->l ? linear_measure(t->l).factorisations : 0;

@@ -178,6 +178,8 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
         load_path_begin(start_xyz != NULL, t->touch && t->touch->setup.held, params->load_steps, params->max_halvings);
     solve_outcome outcome;
     bool ok = follow(&d, &path, motion, start_xyz, &outcome, e);
+    t->factor_kept = ok && outcome == SOLVED && !t->touch && d.load.way == BY_FACTORS && d.direct.has_factor &&
+                     d.direct.need == BLEND_NONE;
     q.load_reached = path.reached;
     q.halvings = path.halvings;
     if (ok) {

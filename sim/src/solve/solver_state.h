@@ -26,6 +26,9 @@ struct solver {
     double *matrix_x; /* [3*nodes] where the assembly's node blocks are those without contact, else NULL */
     double prepare_s;
     bool goes_on; /* from the last plan, with its contacts */
+    bool
+        factor_kept; /* l holds a factor of the true matrix, and the assembly its node blocks, near the last solution */
+    bool factor_used; /* and the next first guess is made with it */
 };
 
 /* Puts the bones in place, for boundary and contacts. */

@@ -51,12 +51,17 @@ static bool respond(descent *d, const double *x_start, double *seconds, int *cg_
 {
     solver *t = d->t;
     hessian_kind kind = HESSIAN_TRUE;
+    bool kept = t->factor_used && d->load.way == BY_FACTORS;
     *ok = true;
+    t->factor_used = false;
     if (d->load.way == BY_GRADIENTS) {
         if (!inexact_matrix(d, x_start, kind, true, ok, seconds, e)) return false;
         if (!*ok) d->load.way = BY_FACTORS;
     }
-    if (d->load.way == BY_FACTORS && !direct_factorise(d, x_start, &kind, ok, seconds, e)) return false;
+    if (kept)
+        direct_adopt(&d->direct, d->residual);
+    else if (d->load.way == BY_FACTORS && !direct_factorise(d, x_start, &kind, ok, seconds, e))
+        return false;
     if (!*ok) return true;
     double *carried = d->trial.x; /* what the bones carried nodes by */
     for (size_t i = 0; i < 3 * (size_t)t->b.node_count; i++) carried[i] = d->here.x[i] - x_start[i];
