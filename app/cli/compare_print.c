@@ -60,9 +60,10 @@ static void print_landmarks(const face_compare *c)
 void compare_print(const face_compare *c)
 {
     if (c->aligned)
-        printf("aligned on forehead and nasal bridge: turned %.2f deg, RMS %.3f -> %.3f mm over %d of %d points\n\n",
-               rigid_angle(&c->fit.move) * (180 / acos(-1.0)), c->fit.rms_before_mm, c->fit.rms_after_mm, c->fit.used,
-               c->fit.points);
+        printf("aligned on forehead and nasal bridge: turned %.2f deg (%.2f mm at the chin), RMS %.3f -> "
+               "%.3f mm over %d of %d points\n\n",
+               rigid_angle(&c->fit.move) * (180 / acos(-1.0)), c->turn_at_chin_mm, c->fit.rms_before_mm,
+               c->fit.rms_after_mm, c->fit.used, c->fit.points);
     else
         printf("not aligned: both faces taken as they lie\n\n");
     printf("signed distance, mm: positive where the actual face lies in front of the predicted one\n");

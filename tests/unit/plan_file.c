@@ -238,6 +238,36 @@ static void a_matrix_is_the_chins_whole_move(void **state)
     assert_near(d[1], -5, 1e-12);
 }
 
+/* A matrix is what a registration found; angles are what is asked for. */
+static void a_ramus_turned_by_a_registration_does_not_stop(void **state)
+{
+    (void)state;
+    const char *label[] = {"Co_L", "Co_R"}, *name[] = {"proximal_left", "proximal_right"};
+    for (int side = 0; side < 2; side++)
+        for (int deg = -9; deg <= 9; deg += 18) {
+            char text[1024];
+            double m16[16];
+            err e = {0};
+            plan_file p;
+            plan_moves m;
+            rigid a =
+                rigid_rotation(landmarks_find(&head, label[side])->xyz, (const double[3]){0, 0, 1}, deg * M_PI / 180);
+            rigid_to_matrix(&a, m16);
+            int n = snprintf(text, sizeof text, "{\"gnathos\": 1, \"segments\": {\"%s\": {\"matrix\": [", name[side]);
+            for (int i = 0; i < 16; i++)
+                n += snprintf(text + n, sizeof text - (size_t)n, "%s%.17g", i ? ", " : "", m16[i]);
+            snprintf(text + n, sizeof text - (size_t)n, "]}, \"%s\": {\"yaw_deg\": 3}}}", name[1 - side]);
+            m = moves_of(text);
+            assert_near(m.measure[LIMIT_CONDYLE_TURN], 9, 1e-9);
+            assert_near(m.commanded_turn_deg, 3, 1e-9);
+            snprintf(text + n, sizeof text - (size_t)n, "]}, \"%s\": {\"yaw_deg\": 6}}}", name[1 - side]);
+            put(text);
+            assert_false(plan_moves_load(path, &patient, &head, &p, &m, &e));
+            assert_int_equal(e.code, ERR_INFEASIBLE);
+            assert_non_null(strstr(e.text, "condyle_turn_deg is 6"));
+        }
+}
+
 /* Reads a plan that has to be refused; *text holds why. */
 static void refused(const char *plan, char *text, size_t size)
 {
@@ -341,6 +371,7 @@ int main(void)
         cmocka_unit_test(matrix_and_transform_file_say_the_same),
         cmocka_unit_test(moves_fed_back_as_files_are_the_same_moves),
         cmocka_unit_test(a_matrix_is_the_chins_whole_move),
+        cmocka_unit_test(a_ramus_turned_by_a_registration_does_not_stop),
         cmocka_unit_test(every_word_of_an_audit_is_read_or_told_its_place),
         cmocka_unit_test(a_limit_holds_exactly_at_its_end),
         cmocka_unit_test(an_override_turns_a_breach_into_a_warning),

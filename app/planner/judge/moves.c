@@ -31,7 +31,11 @@ void judge_moves(const judge *j, const plan_moves *m, judgement *out)
             judgement_add(out, j->patient, (limit_id)l, where, (double)NAN, false, "the case does not cut this bone");
             continue;
         }
-        finding *f = judgement_add(out, j->patient, (limit_id)l, where, m->measure[l], false, NULL);
+        bool registered = l == LIMIT_CONDYLE_TURN && m->measure[l] > m->commanded_turn_deg &&
+                          limit_judge(&j->patient->limits[l], m->commanded_turn_deg) != LIMIT_STOP;
+        finding *f = judgement_add(out, j->patient, (limit_id)l, where, m->measure[l], registered,
+                                   registered ? "from a matrix, taken for a registration's: cautions at most" : NULL);
+        f->estimated = false;
         f->segment_a = moved[group];
         f->has_place = judge_landmark(j, m, point[group], f->place);
     }

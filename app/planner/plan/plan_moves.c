@@ -55,6 +55,12 @@ static bool own_move(const plan_file *p, segment_id id, const landmarks *l, segm
     return true;
 }
 
+/* A turn of a ramus that was measured, not asked for: it is told, and does not stop. */
+static bool is_registered_turn(const plan_segment *s, limit_id l)
+{
+    return l == LIMIT_CONDYLE_TURN && s->move.kind == MOVE_RIGID;
+}
+
 /* An issue where a measure lies beyond its stop range. */
 static void check_limit(const plan_file *p, const case_file *c, segment_id id, limit_id l, double value,
                         issue_list *issues)
@@ -66,6 +72,15 @@ static void check_limit(const plan_file *p, const case_file *c, segment_id id, l
                *source = c->limit_from_case[l] ? "set by the case" : limit_default[l].source;
     char where[64], range[LIMIT_WORDS_SIZE];
     bool both_ends = isfinite(r->stop[0]) && isfinite(r->stop[1]);
+    if (is_registered_turn(&p->segment[id], l)) {
+        snprintf(where, sizeof where, "segments.%s", segment_name(id));
+        issue_add(
+            issues, ISSUE_WARNING, ERR_INFEASIBLE, p->path, p->segment[id].line, where,
+            "%s is %.4g, outside %s: %s. It is the move of a matrix, which is taken for a registration's, so that "
+            "it cautions only",
+            name, value, limit_range_words(r->stop, range), source);
+        return;
+    }
     snprintf(where, sizeof where, "%s%s", short_form ? "" : "segments.", short_form ? name : segment_name(id));
     issue_add(issues, excused ? ISSUE_WARNING : ISSUE_ERROR, ERR_INFEASIBLE, p->path, p->segment[id].line, where,
               "%s%sis %.4g, %s %s: %s. %s%s", short_form ? "" : name, short_form ? "" : " ", value,
@@ -125,6 +140,8 @@ bool plan_moves_set(const plan_file *p, const case_file *c, const landmarks *l, 
         int count = measure(p, (segment_id)id, l, &f, m.move, &first, value);
         for (int i = 0; i < count; i++)
             if (fabs(value[i]) >= fabs(m.measure[(int)first + i])) m.measure[(int)first + i] = value[i];
+        if (count == 2 && !is_registered_turn(&p->segment[id], LIMIT_CONDYLE_TURN))
+            m.commanded_turn_deg = fmax(m.commanded_turn_deg, value[1]);
     }
     *out = m;
     return true;

@@ -5,6 +5,8 @@
 typedef struct plan_moves {
     rigid move[SEGMENT_COUNT]; /* of each segment, LPS mm; the chin's includes the distal segment's */
     double measure[LIMIT_MOVE_COUNT];
+    double commanded_turn_deg; /* the larger turn of the proximal segments that the plan gives by angles; 0: none. A
+                                  matrix or a file is what a registration measured */
 } plan_moves;
 
 /* The moves are those of geometry/rig.h: advance and impaction along the head's Frankfort frame, angles about its axes,

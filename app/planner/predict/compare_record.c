@@ -62,6 +62,7 @@ static const char alignment_region[] = "forehead and nasal bridge, above N";
 typedef struct alignment {
     const char *region;
     double matrix[16], turn_deg;
+    double turn_at_chin_mm;
     surface_fit fit;
 } alignment;
 
@@ -69,6 +70,7 @@ static const record_row alignment_row[] = {
     ROW(alignment, region, "region", NULL, "what the faces were aligned on"),
     ROW(alignment, matrix, "matrix", NULL, "how the actual face was moved: row-major, mm"),
     ROW(alignment, turn_deg, "turn_deg", "degrees", "angle of that move"),
+    ROW(alignment, turn_at_chin_mm, "turn_at_chin_mm", "mm", "what that turn alone moves the chin by"),
     ROW(alignment, fit.points, "points", NULL, "vertices of the region"),
     ROW(alignment, fit.used, "used", NULL, "of them, used"),
     ROW(alignment, fit.iterations, "iterations", NULL, "steps of the alignment"),
@@ -87,8 +89,10 @@ static const void *aligned(const void *of, void *space)
     const face_compare *c = ((const comparison *)of)->of;
     alignment *a = space;
     if (!c->aligned) return NULL;
-    *a = (alignment){
-        .region = alignment_region, .turn_deg = rigid_angle(&c->fit.move) * (180 / acos(-1.0)), .fit = c->fit};
+    *a = (alignment){.region = alignment_region,
+                     .turn_deg = rigid_angle(&c->fit.move) * (180 / acos(-1.0)),
+                     .turn_at_chin_mm = c->turn_at_chin_mm,
+                     .fit = c->fit};
     rigid_to_matrix(&c->fit.move, a->matrix);
     return a;
 }

@@ -3,6 +3,7 @@
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
 #include "geometry/smoothed_motion.h"
+#include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,12 +81,30 @@ static void summarise(face_compare *c, int k)
     free(face);
 }
 
+/* How far the turn of the alignment alone, about the middle of the stable skin, moves the chin. */
+static double turn_at_chin(const face_compare *c)
+{
+    const surface *s = &c->skin[PREDICTED];
+    double middle[2][3] = {{0}}, arm[3], turned[3], count[2] = {0};
+    for (int32_t v = 0; v < s->vertex_count; v++) {
+        bool chin = c->map.region[v] == FACE_CHIN;
+        if (!chin && !c->map.stable[v]) continue;
+        vec_add(middle[chin], s->xyz + 3 * (size_t)v, middle[chin]);
+        count[chin]++;
+    }
+    for (int k = 0; k < 2; k++) vec_scale(middle[k], 1 / count[k], middle[k]);
+    vec_sub(middle[1], middle[0], arm);
+    rigid_rotate(&c->fit.move, arm, turned);
+    return vec_distance(arm, turned);
+}
+
 static bool measure(face_compare *c, surface *actual, bool align, err *e)
 {
     /* What the jaws do not move is the same in all predictions. */
     if (align) {
         if (!face_fit(actual, &c->skin[PREDICTED], &c->map, &c->fit, e)) return false;
         c->aligned = true;
+        c->turn_at_chin_mm = turn_at_chin(c);
         surface_transform(actual, &c->fit.move);
         for (int32_t i = 0; i < c->actual_points.count; i++) {
             double *p = c->actual_points.point[i].xyz;

@@ -32,6 +32,7 @@ typedef struct face_compare {
     face_map map;
     bool aligned;
     surface_fit fit;                     /* of the actual face */
+    double turn_at_chin_mm;              /* what its turn alone moves the chin by; NaN: the skin has no chin */
     double *signed_mm[PREDICTION_COUNT]; /* [vertex_count] */
     distance_stats row[PREDICTION_COUNT][ROW_COUNT];
 } face_compare;
