@@ -28,7 +28,7 @@ enum {
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0,
-     "What the case is made of: mesh files (.ply .stl .obj .off .gltf .glb, FILE.glb#NODE), or labels of "
+     "What the case is made of (given twice: of both): mesh files (.ply .stl .obj .off .gltf .glb, FILE.glb#NODE), or labels of "
      "--labels",
      1},
     {"skin", KEY_SKIN, "FROM", 0, "Skin of the head; may be open at neck, mouth, eyes and nostrils", 1},
@@ -44,7 +44,8 @@ static const struct argp_option options[] = {
     {"labels", KEY_LABELS, "FILE", 0,
      "Label map (.nrrd .seg.nrrd .nii .nii.gz); labels are chosen by name, or by number where the file names "
      "none; "
-     "several are separated by commas",
+     "several are separated by commas. Given several times: files of one grid, each of them one "
+     "structure that bears its file's name",
      3},
     {"preset", KEY_PRESET, "NAME", 0,
      "dental-segmentator, totalsegmentator-craniofacial or toothfairy: the labels of that tool", 3},
@@ -68,20 +69,33 @@ static double number(const char *arg, double low, double high, const char *what,
     return value;
 }
 
+static void add(import_words *w, const char *arg, struct argp_state *state)
+{
+    if (w->count == IMPORT_TIMES_MOST)
+        argp_error(state, "\"%s\": an option may be given %d times", arg, IMPORT_TIMES_MOST);
+    w->word[w->count++] = arg;
+}
+
+static void once(const char **to, const char *arg, const char *what, struct argp_state *state)
+{
+    if (*to) argp_error(state, "--%s is given twice: %s and %s; which is meant?", what, *to, arg);
+    *to = arg;
+}
+
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
     import_params *p = r->own;
     switch (key) {
-    case KEY_SKIN: p->from[CASE_SKIN] = arg; return 0;
-    case KEY_SKULL: p->from[CASE_SKULL] = arg; return 0;
-    case KEY_MANDIBLE: p->from[CASE_MANDIBLE] = arg; return 0;
-    case KEY_UPPER: p->from[CASE_UPPER_TEETH] = arg; return 0;
-    case KEY_LOWER: p->from[CASE_LOWER_TEETH] = arg; return 0;
-    case KEY_LANDMARKS: p->landmarks = arg; return 0;
-    case KEY_NAME: p->name = arg; return 0;
-    case KEY_LABELS: p->labels = arg; return 0;
-    case KEY_PRESET: p->preset = arg; return 0;
-    case KEY_CT: p->ct = arg; return 0;
+    case KEY_SKIN: add(&p->from[CASE_SKIN], arg, state); return 0;
+    case KEY_SKULL: add(&p->from[CASE_SKULL], arg, state); return 0;
+    case KEY_MANDIBLE: add(&p->from[CASE_MANDIBLE], arg, state); return 0;
+    case KEY_UPPER: add(&p->from[CASE_UPPER_TEETH], arg, state); return 0;
+    case KEY_LOWER: add(&p->from[CASE_LOWER_TEETH], arg, state); return 0;
+    case KEY_LANDMARKS: once(&p->landmarks, arg, "landmarks", state); return 0;
+    case KEY_NAME: once(&p->name, arg, "name", state); return 0;
+    case KEY_LABELS: add(&p->labels, arg, state); return 0;
+    case KEY_PRESET: once(&p->preset, arg, "preset", state); return 0;
+    case KEY_CT: once(&p->ct, arg, "ct", state); return 0;
     case KEY_HU:
         p->skin_hu = number(arg, -1000, 30000, "skin-hu", state);
         p->skin_hu_given = true;
@@ -112,7 +126,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
         argp_error(state, "\"%s\": every input is named by an option, as in --skin=%s", arg, arg);
         return 0;
     case ARGP_KEY_END:
-        if (p->preset && !p->labels) argp_error(state, "--preset needs --labels");
+        if (p->preset && !p->labels.count) argp_error(state, "--preset needs --labels");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

@@ -349,6 +349,71 @@ static void bones_that_are_there_twice_are_refused(void **state)
     surface_free(&both);
 }
 
+static void an_option_given_twice_means_both(void **state)
+{
+    (void)state;
+    const double half_low[3] = {-50, -60, 0}, half_high[3] = {0, 60, 90}, rest_low[3] = {1, -60, 0};
+    write_box("skin.stl", skin_low, skin_high, true);
+    write_box("half.ply", half_low, half_high, false);
+    write_box("rest.obj", rest_low, bone_high, false);
+    write_box("jaw.ply", jaw_low, jaw_high, false);
+    assert_int_equal(system("rm -rf made"), 0);
+    const char *both = "--skin skin.stl --skull half.ply --skull rest.obj --mandible jaw.ply --json -o made";
+    assert_int_equal(run(both), 0);
+    json_file out;
+    err e = {0};
+    assert_ok(json_file_read("import.out", &out, &e));
+    assert_near(number(out.root, "skull", "pieces"), 2, 0);
+    assert_near(number(out.root, "skull", "volume_mm3"), (50 + 49) * 120 * 90, 1e-3);
+    json_file_free(&out);
+    assert_int_equal(system("rm -rf made"), 0);
+    assert_int_equal(run("--skin skin.stl --skull half.ply --skull half.ply --mandible jaw.ply -o made"), ERR_USAGE);
+    assert_true(said("named twice"));
+    assert_int_equal(run("--skin skin.stl --skull half.ply --mandible jaw.ply --name a --name b -o made"), ERR_USAGE);
+    assert_true(said("--name is given twice: a and b"));
+    write_boxes("head5.nrrd", head_boxes, 5, "");
+    assert_int_equal(import_boxes("--labels head5.nrrd --skull 1 --mandible 2 --mandible 3 --upper-teeth 4"), 0);
+    assert_near(made_mm3("mandible"), 2 * 50 * 80 * 40, 1);
+    assert_int_equal(import_boxes("--labels head5.nrrd --skull 1 --skull half.ply --mandible 2,3"), ERR_USAGE);
+    assert_true(said("mesh files and labels"));
+}
+
+static void label_files_of_one_structure_each_are_one_segmentation(void **state)
+{
+    (void)state;
+    static const double skull[1][7] = {{1, -50, -60, 10, 50, 60, 80}}, jaw[1][7] = {{1, -50, -60, -60, 50, 20, -20}},
+                        teeth[1][7] = {{3, -30, -75, 10, 30, -60, 25}}, over[1][7] = {{1, -30, -75, 10, 30, -50, 25}};
+    write_boxes("skull.nrrd", skull, 1, "");
+    write_boxes("mandible.nrrd", jaw, 1, "");
+    write_boxes("teeth_upper.nrrd", teeth, 1, "");
+    write_boxes("teeth_lower.nrrd", teeth, 0, ""); /* nothing found */
+    write_boxes("head5.nrrd", head_boxes, 5, "");
+    const char *files =
+        "--labels skull.nrrd --labels mandible.nrrd --labels teeth_upper.nrrd --labels teeth_lower.nrrd";
+    char line[512];
+    snprintf(line, sizeof line, "%s --preset totalsegmentator-craniofacial", files);
+    assert_int_equal(import_boxes(line), 0);
+    assert_near(made_mm3("skull"), 100 * 120 * 70, 1);
+    assert_near(made_mm3("mandible"), 100 * 80 * 40, 1);
+    assert_near(made_mm3("upper_teeth"), 60 * 15 * 15, 1);
+    snprintf(line, sizeof line, "%s --skull skull,teeth_upper --mandible mandible", files);
+    assert_int_equal(import_boxes(line), 0);
+    assert_near(made_mm3("skull"), 100 * 120 * 70 + 60 * 15 * 15, 1);
+    snprintf(line, sizeof line, "%s --skull skull --mandible jaw", files);
+    assert_int_equal(import_boxes(line), ERR_INPUT);
+    assert_true(said("skull.nrrd and 3 more: has no label \"jaw\"; choose by name: \"skull\", \"mandible\""));
+    assert_int_equal(import_boxes("--labels skull.nrrd --labels head5.nrrd --skull skull --mandible head5"), ERR_INPUT);
+    assert_true(said("several labels"));
+    write_boxes("teeth_upper.nrrd", over, 1, ""); /* overlap: both whole */
+    snprintf(line, sizeof line, "%s --skull skull --mandible mandible --upper-teeth teeth_upper", files);
+    assert_int_equal(import_boxes(line), 0);
+    assert_near(made_mm3("skull"), 100 * 120 * 70, 1);
+    assert_near(made_mm3("upper_teeth"), 60 * 25 * 15, 1);
+    assert_int_equal(system("sed 's/origin: (-97.5,/origin: (-97.4,/' mandible.nrrd >moved.nrrd"), 0);
+    assert_int_equal(import_boxes("--labels skull.nrrd --labels moved.nrrd --skull skull --mandible moved"), ERR_INPUT);
+    assert_true(said("0.1 mm from those of skull.nrrd"));
+}
+
 static void real_heads_are_accepted(void **state)
 {
     (void)state;
@@ -383,6 +448,8 @@ int main(void)
         cmocka_unit_test(presets_are_held_against_the_shapes),
         cmocka_unit_test(a_ct_that_is_not_in_hounsfield_units_is_no_skin),
         cmocka_unit_test(bones_that_are_there_twice_are_refused),
+        cmocka_unit_test(an_option_given_twice_means_both),
+        cmocka_unit_test(label_files_of_one_structure_each_are_one_segmentation),
         cmocka_unit_test(real_heads_are_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -191,17 +191,60 @@ static void note_landmarks(import_result *r, issue_list *notes)
                   "%d landmarks without a defined position were left out", r->points_skipped);
 }
 
+/* All mesh files of a part, put together. */
+static bool read_meshes(const import_params *p, const import_words *from, import_part *part, issue_list *notes, err *e)
+{
+    for (int k = 0; k < from->count; k++) {
+        import_part one = {0};
+        for (int j = 0; j < k; j++)
+            if (!strcmp(from->word[j], from->word[k]))
+                return err_at(e, ERR_USAGE, from->word[k], 0, NULL, "is named twice for one part");
+        if (!read_mesh(p, from->word[k], &one, notes, e)) return false;
+        if (k == 0) {
+            *part = one;
+            continue;
+        }
+        surface both = surface_joined(&part->mesh, &one.mesh);
+        surface_free(&part->mesh);
+        surface_free(&one.mesh);
+        part->mesh = both;
+        size_t n = strlen(part->source);
+        snprintf(part->source + n, sizeof part->source - n, ", %s", from->word[k]);
+        part->read.tagged &= one.read.tagged;
+        part->read.ras |= one.read.ras;
+        part->read.welded_vertices += one.read.welded_vertices;
+        part->read.dropped_triangles += one.read.dropped_triangles;
+        part->read.split_polygons += one.read.split_polygons;
+    }
+    return true;
+}
+
+/* Whether a part comes from mesh files; false after a refusal of a mixture. */
+static bool are_meshes(const import_params *p, case_surface part, bool *meshes, err *e)
+{
+    const import_words *from = &p->from[part];
+    int count = 0;
+    for (int k = 0; k < from->count; k++) count += !p->labels.count || import_is_mesh_name(from->word[k]);
+    *meshes = count > 0;
+    return !count || count == from->count ||
+           err_set(e, ERR_USAGE, "--%s names mesh files and labels; a part is made of the one or the other",
+                   case_surface_name(part));
+}
+
 bool import_read(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
 {
     import_result r = {.contacts = -1};
     bool good = true;
-    if (p->ct && p->from[CASE_SKIN]) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
+    if (p->ct && p->from[CASE_SKIN].count)
+        return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
-        if (!p->from[i] || (p->labels && !import_is_mesh_name(p->from[i]))) continue;
+        bool meshes;
+        good = are_meshes(p, (case_surface)i, &meshes, e);
+        if (!good || !meshes) continue;
         task_progress(watch, case_surface_name((case_surface)i), -1);
-        good = read_mesh(p, p->from[i], &r.part[i], notes, e);
+        good = read_meshes(p, &p->from[i], &r.part[i], notes, e);
     }
-    if (good && (p->labels || p->ct)) good = import_labels(p, watch, &r, notes, e);
+    if (good && (p->labels.count || p->ct)) good = import_labels(p, watch, &r, notes, e);
     if (good) good = check_complete(&r, e);
     for (int i = 0; good && i < CASE_SURFACE_COUNT; i++) {
         if (!r.part[i].mesh.vertex_count) continue;

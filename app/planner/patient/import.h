@@ -5,11 +5,17 @@
 #include "app/planner/store/task.h"
 #include "geometry/label_surface.h"
 
+enum { IMPORT_TIMES_MOST = 64 };
+typedef struct import_words { /* of an option that may be given several times, all of which count */
+    int count;
+    const char *word[IMPORT_TIMES_MOST];
+} import_words;
+
 typedef struct import_params {
-    /* For each surface a mesh file or, with `labels`, labels separated by commas: names, or numbers where the
-     * file names none. NULL: none, or what the preset says. */
-    const char *from[CASE_SURFACE_COUNT];
-    const char *labels;        /* label map, or NULL */
+    /* For each surface mesh files or, with `labels`, labels separated by commas: names, or numbers where the
+     * file names none. Several are joined. Count 0: none, or what the preset says. */
+    import_words from[CASE_SURFACE_COUNT];
+    import_words labels;       /* a label map, or several of one grid (label_files.h) */
     const char *preset;        /* NULL, or one of label_preset_names */
     const char *ct;            /* the skin is the head in this CT, or NULL */
     double skin_hu;            /* above: not air */

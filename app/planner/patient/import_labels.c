@@ -1,6 +1,7 @@
 /* Parts of a case from a label map, and the skin from a CT. */
 #include "app/planner/patient/import.h"
 #include "app/planner/patient/label_choice.h"
+#include "app/planner/patient/label_files.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include <stdio.h>
@@ -37,34 +38,43 @@ static bool mesh_skin(const import_params *p, const task *watch, const volume *g
     return good;
 }
 
-static bool choose_labels(const import_params *p, const volume *v, import_result *out, label_choice *c, err *e)
+static bool choose_labels(const import_params *p, const volume *v, const char *where, import_result *out,
+                          label_choice *c, err *e)
 {
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
         import_part *part = &out->part[i];
         if (part->mesh.vertex_count) continue; /* came from a mesh file */
-        if (p->from[i]) {
-            if (!label_choose_words(v, p->labels, (case_surface)i, p->from[i], c, e)) return false;
-            snprintf(part->source, sizeof part->source, "%s, label %s", p->labels, p->from[i]);
-        } else if (p->preset && !(i == CASE_SKIN && p->ct)) {
-            if (!label_choose_preset(v, p->labels, p->preset, (case_surface)i, c, e)) return false;
-            snprintf(part->source, sizeof part->source, "%s, %s", p->labels, p->preset);
+        size_t n = (size_t)snprintf(part->source, sizeof part->source, "%s, label", where);
+        for (int k = 0; k < p->from[i].count; k++) {
+            if (!label_choose_words(v, where, (case_surface)i, p->from[i].word[k], c, e)) return false;
+            if (n < sizeof part->source)
+                n += (size_t)snprintf(part->source + n, sizeof part->source - n, "%s%s", k ? "," : " ",
+                                      p->from[i].word[k]);
+        }
+        if (p->from[i].count) continue;
+        part->source[0] = 0;
+        if (p->preset && !(i == CASE_SKIN && p->ct)) {
+            if (!label_choose_preset(v, where, p->preset, (case_surface)i, c, e)) return false;
+            snprintf(part->source, sizeof part->source, "%s, %s", where, p->preset);
         }
     }
     return true;
 }
 
 /* Nothing that is in the file vanishes without a word. */
-static void note_unused(const import_params *p, const volume *v, const label_choice *c, issue_list *notes)
+static void note_unused(const import_params *p, const volume *v, const char *where, const label_choice *c,
+                        issue_list *notes)
 {
     char text[400];
     int count = label_choice_unused(c, v, text, sizeof text);
     if (count)
-        issue_add(notes, p->preset ? ISSUE_WARNING : ISSUE_INFO, ERR_NONE, p->labels, 0, NULL,
+        issue_add(notes, p->preset ? ISSUE_WARNING : ISSUE_INFO, ERR_NONE, where, 0, NULL,
                   "%d label%s make%s no part of the case: %s", count, count > 1 ? "s" : "", count > 1 ? "" : "s", text);
 }
 
 /* Drops islands, fills what is enclosed and belongs to no other part. */
-static void clean_bones(const import_params *p, const volume *v, mask *m, import_result *out, issue_list *notes)
+static void clean_bones(const import_params *p, const volume *v, const char *where, mask *m, import_result *out,
+                        issue_list *notes)
 {
     int64_t least = (int64_t)ceil(p->mesh.least_mm3 / voxel_mm3(v)), voxels = mask_voxels(&m[0]);
     for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
@@ -72,7 +82,7 @@ static void clean_bones(const import_params *p, const volume *v, mask *m, import
         if (!mask_count(&m[i])) continue;
         part->islands_dropped = mask_drop_islands(&m[i], least, &part->island_voxels);
         if (!mask_count(&m[i]))
-            issue_add(notes, ISSUE_WARNING, ERR_NONE, p->labels, 0, NULL,
+            issue_add(notes, ISSUE_WARNING, ERR_NONE, where, 0, NULL,
                       "the label of the %s has only pieces of less than %g mm^3: left out",
                       case_surface_name((case_surface)i), p->mesh.least_mm3);
         part->cavity_voxels = mask_fill_cavities(&m[i]);
@@ -110,18 +120,23 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
     volume v;
     mask m[CASE_SURFACE_COUNT];
     label_choice choice = {0};
+    char where[1100];
     if (p->preset && !label_preset_check(p->preset, e)) return false;
     task_progress(watch, "labels", -1);
-    if (!volume_read_by(p->labels, p->form, &v, e)) return false;
+    if (!label_files_read(p->labels.word, p->labels.count, p->form, &v, e)) return false;
+    if (p->labels.count == 1)
+        snprintf(where, sizeof where, "%s", p->labels.word[0]);
+    else
+        snprintf(where, sizeof where, "%.1000s and %d more", p->labels.word[0], p->labels.count - 1);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) m[i] = mask_new(v.size);
-    bool good = choose_labels(p, &v, out, &choice, e);
+    bool good = choose_labels(p, &v, where, out, &choice, e);
     if (good) {
         for (int i = 0; i < CASE_SURFACE_COUNT; i++) label_choice_mask(&choice, &v, (case_surface)i, &m[i]);
-        note_unused(p, &v, &choice, notes);
-        clean_bones(p, &v, m, out, notes);
+        note_unused(p, &v, where, &choice, notes);
+        clean_bones(p, &v, where, m, out, notes);
         out->contacts = jaw_contacts(m);
         if (out->contacts)
-            issue_add(notes, ISSUE_WARNING, ERR_NONE, p->labels, 0, NULL,
+            issue_add(notes, ISSUE_WARNING, ERR_NONE, where, 0, NULL,
                       "upper and lower jaw touch at %lld pairs of voxels (joints or teeth): the surfaces "
                       "meet there",
                       (long long)out->contacts);
@@ -193,6 +208,6 @@ static bool skin_of_ct(const import_params *p, const task *watch, import_result 
 
 bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e)
 {
-    if (p->labels && !parts_of_labels(p, watch, out, notes, e)) return false;
+    if (p->labels.count && !parts_of_labels(p, watch, out, notes, e)) return false;
     return !p->ct || skin_of_ct(p, watch, out, notes, e);
 }
