@@ -28,8 +28,8 @@ enum {
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0,
-     "What the case is made of (given twice: of both): mesh files (.ply .stl .obj .off .gltf .glb, FILE.glb#NODE), or labels of "
-     "--labels",
+     "What the case is made of (given twice: of both): mesh files (.ply .stl .obj .off .gltf .glb, FILE.glb#NODE), or "
+     "labels of --labels",
      1},
     {"skin", KEY_SKIN, "FROM", 0, "Skin of the head; may be open at neck, mouth, eyes and nostrils", 1},
     {"skull", KEY_SKULL, "FROM", 0, "Skull with the maxilla", 1},
