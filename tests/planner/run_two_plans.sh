@@ -15,4 +15,7 @@ json.dump(case, open(sys.argv[1], "w"))
 PY
 fi
 "$gnathos" prepare -q "$case" >"$work/prepare.txt"
-"$two_plans" "$case" "$contact"
+for control in maxilla_advance_mm mandible_advance_mm; do
+    echo "$control"
+    "$two_plans" "$case" "$contact" $control
+done

@@ -1,5 +1,5 @@
-/* A program on the planner library alone: predicts a plan, moves the maxilla 1 mm on, and predicts again.
- *   two_plans CASE [bones|off]
+/* A program on the planner library alone: predicts a plan, moves one of its controls 1 mm on, and predicts again.
+ *   two_plans CASE bones|off CONTROL
  * The first prediction counts from opening the prepared case on. Prints seconds and counts of both; asserts counts, and
  * that the second face is the one that a prediction from rest gives. */
 #include "app/planner/planner.h"
@@ -40,8 +40,8 @@ int main(int argc, char **argv)
     patient p;
     patient_plan plan;
     prediction face[3]; /* of the first plan, of the second, of the second from rest */
-    assert(argc == 3);
-    double wall[4], cpu[4];
+    assert(argc == 4);
+    double wall[4], cpu[4], value;
     setvbuf(stdout, NULL, _IOLBF, 0);
     wall[0] = clock_s(), cpu[0] = clock_cpu_s();
     stop_on(patient_open(argv[1], NULL, NULL, &p, &e), &e);
@@ -51,7 +51,9 @@ int main(int argc, char **argv)
             &e);
     stop_on(patient_predict(&p, &plan, NULL, &face[0], &e), &e);
     wall[1] = clock_s(), cpu[1] = clock_cpu_s();
-    stop_on(patient_plan_set(&p, "maxilla_advance_mm", 4, &plan, &e), &e);
+    stop_on(patient_plan_value(&p, argv[3], &plan, &value, &e) &&
+                patient_plan_set(&p, argv[3], value < 0 ? value - 1 : value + 1, &plan, &e),
+            &e);
     stop_on(patient_predict(&p, &plan, NULL, &face[1], &e), &e);
     wall[2] = clock_s(), cpu[2] = clock_cpu_s();
     stop_on(prediction_make(&p.file, &p.prepared, &p.shapes, &plan.moves, &p.options, NULL, &face[2], &e), &e);
