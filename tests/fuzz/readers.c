@@ -204,11 +204,11 @@ static bool read_journal(const char *path)
     journal_close(&j);
     return true;
 }
-#endif
 
 static const char ply_header[] =
     "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
     "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+#endif
 
 const reader readers[] = {
     {"case", "case.json", read_case, NULL},

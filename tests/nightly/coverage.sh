@@ -5,7 +5,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${GNATHOS_BUILD:-$root/build}-coverage
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE="-O1 --coverage" \
-    -DCMAKE_EXE_LINKER_FLAGS=--coverage >"$build.log" 2>&1 || { tail -20 "$build.log"; exit 1; }
+    -DCMAKE_EXE_LINKER_FLAGS=--coverage -DGNATHOS_WERROR=OFF >"$build.log" 2>&1 || { tail -20 "$build.log"; exit 1; }
 cmake --build "$build" >"$build.log" 2>&1 || { grep -E 'error|FAILED' "$build.log"; exit 1; }
 rm -f "$build.log"
 find "$build" -name '*.gcda' -delete
@@ -14,7 +14,7 @@ cd "$build"
 find . -name '*.gcno' -path '*/CMakeFiles/*' | grep -vE '\.cpp\.gcno|/tests/' | while read -r notes; do
     gcov --no-output "$notes" 2>/dev/null || true
 done | awk -v root="$root/" '
-/^File / { file = $2; gsub(/\047/, "", file); sub(root, "", file); next }
+/^File / { file = $2; gsub(/\047/, "", file); sub(root, "", file); sub(/^(\.\.\/)+/, "", file); next }
 /^Lines executed:/ && file ~ /^(geometry|sim|render|app)\/.*\.c$/ {
     split($2, part, /[:%]/)
     run = part[2] * $4 / 100
