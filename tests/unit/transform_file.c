@@ -127,7 +127,8 @@ static void wrong_transforms_are_refused_with_file_and_line(void **state)
     } bad[] = {
         {"a.h5", "x", "a.h5: HDF5 transforms are not read; save it as Text (.tfm)"},
         {"a.mat", "x", "a.mat: unknown kind"},
-        {"empty.tfm", "", "empty.tfm: holds no transform"},
+        {"empty.tfm", "", "empty.tfm: the file is empty"},
+        {"none.tfm", HEAD, "none.tfm: holds no transform"},
         {"head.tfm", "hello\n", "head.tfm:1: "},
         {"composite.tfm", HEAD "Transform: CompositeTransform_double_3_3\n", "composite.tfm:3: Transform: Composite"},
         {"plane.tfm", HEAD "Transform: AffineTransform_double_2_2\n", "plane.tfm:3: "},
