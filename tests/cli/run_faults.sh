@@ -9,11 +9,11 @@ wrong() { echo "FAIL: $*"; failed=1; }
 left() { ls -A | grep -c '^\.[^.].*\.part$'; }
 
 "$gnathos" new head --norm --class 3 -q >new.out || exit 1
-started() { # ARGUMENT...: runs in the background until its hidden folder is there
+started() { # ARGUMENT...: runs in the background until its own hidden folder is there
     "$gnathos" "$@" >started.out 2>started.err &
     run=$!
     for _ in $(seq 200); do
-        [ "$(left)" -gt 0 ] && return
+        ls -A | grep -q "^\.[^.].*\.$run\.part\$" && return
         sleep 0.05
     done
     wrong "gnathos $* makes no hidden folder"
