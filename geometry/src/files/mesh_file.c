@@ -199,12 +199,10 @@ bool mesh_read_surface(const char *file_and_node, mesh_space space, surface *out
     if (!good) return false;
     turn_to_lps(&s, format == FORMAT_GLTF, r.ras);
     if (format != FORMAT_PLY && format != FORMAT_OFF) mesh_weld(&s, &r);
-    if (!s.triangle_count) {
-        surface_free(&s);
-        return err_at(e, ERR_INPUT, path, 0, NULL, "holds no triangles");
-    }
     corner_join joined;
-    if (!join_corners(&s, path, &joined, e)) {
+    good = join_corners(&s, path, &joined, e);
+    if (good && !s.triangle_count) good = err_at(e, ERR_INPUT, path, 0, NULL, "holds no triangles");
+    if (!good) {
         surface_free(&s);
         return false;
     }
