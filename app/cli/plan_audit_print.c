@@ -6,16 +6,17 @@ static void print_finding(const plan_audit *a, const finding *f, const char *rem
 {
     const limit *l = &limit_default[f->limit];
     const limit_range *r = &a->patient->limits[f->limit];
-    char name[80], fine[LIMIT_WORDS_SIZE], stop[LIMIT_WORDS_SIZE], margin[24] = "-";
+    char name[80], scan[40] = "", fine[LIMIT_WORDS_SIZE], stop[LIMIT_WORDS_SIZE], margin[24] = "-";
     snprintf(name, sizeof name, "%s%s%s", l->name, *f->where ? ", " : "", f->where);
     if (f->level == LIMIT_NOT_JUDGED) {
         printf("%-10s %-56s %s\n", limit_level_name(f->level), name, f->note);
         return;
     }
     if (isfinite(f->margin)) snprintf(margin, sizeof margin, "%.2f", f->margin);
-    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s%s\n", limit_level_name(f->level), name, f->value,
+    if (!isnan(f->scan)) snprintf(scan, sizeof scan, "  in the scan %.2f", f->scan);
+    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s%s%s\n", limit_level_name(f->level), name, f->value,
            limit_range_words(r->fine, fine), limit_range_words(r->stop, stop), margin,
-           f->estimated ? "  estimated" : "", *remedy ? "  -> " : "", remedy);
+           f->estimated ? "  estimated" : "", scan, *remedy ? "  -> " : "", remedy);
 }
 
 void plan_audit_print(const plan_audit *a)

@@ -250,6 +250,36 @@ static void a_bite_that_does_not_fit_stops(void **state)
     assert_int_equal(j.finding[j.reason].limit, LIMIT_OVERJET);
 }
 
+static void an_overjet_of_the_scan_cautions_until_the_plan_worsens_it(void **state)
+{
+    (void)state;
+    const struct {
+        double forward_mm, overjet_mm;
+        limit_level level;
+    } rows[] = {{0, 10, LIMIT_CAUTION},
+                {1, 9, LIMIT_CAUTION},
+                {-0.1, 10.1, LIMIT_STOP},
+                {19, -9, LIMIT_STOP},
+                /* turned round */ {4, 6, LIMIT_CAUTION}};
+    patient.limits[LIMIT_OVERJET].stop[0] = -8;
+    patient.limits[LIMIT_OVERJET].stop[1] = 8;
+    patient.limits[LIMIT_MANDIBLE_ADVANCE].stop[1] = 30;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        judgement j;
+        plan_file p = still();
+        lower_forward(&p, rows[i].forward_mm);
+        judged(&p, &j);
+        const finding *f = find(&j, LIMIT_OVERJET);
+        assert_near(f->value, rows[i].overjet_mm, 1e-9);
+        assert_near(f->scan, 10, 1e-9);
+        assert_int_equal(f->level, rows[i].level);
+        assert_int_equal(f->note != NULL, f->level == LIMIT_CAUTION && f->value > 8);
+        assert_false(f->estimated);
+    }
+    patient.limits[LIMIT_OVERJET] = limit_default[LIMIT_OVERJET].range;
+    patient.limits[LIMIT_MANDIBLE_ADVANCE] = limit_default[LIMIT_MANDIBLE_ADVANCE].range;
+}
+
 /* A second head whose teeth touch: apart they lead what is said of the plan. */
 static void teeth_that_no_longer_meet_lead(void **state)
 {
@@ -305,6 +335,7 @@ int main(void)
         cmocka_unit_test(bone_to_be_trimmed_is_measured),
         cmocka_unit_test(a_canted_bite_is_told),
         cmocka_unit_test(a_bite_that_does_not_fit_stops),
+        cmocka_unit_test(an_overjet_of_the_scan_cautions_until_the_plan_worsens_it),
         cmocka_unit_test(teeth_that_no_longer_meet_lead),
     };
     return cmocka_run_group_tests(tests, make_head, drop_head);

@@ -17,13 +17,32 @@ static finding *add(const judge *j, judgement *out, limit_id id, double value, c
     return judgement_add(out, j->patient, id, "", value, false, note);
 }
 
+/* An overjet that the patient came with is not the plan's doing: it cautions where the plan leaves or lessens it. */
+static void judge_overjet(const judge *j, const plan_moves *m, double overjet, judgement *out)
+{
+    const double rounding_mm = 1e-6;
+    plan_moves none = *m;
+    double u1[3], l1[3];
+    for (int s = 0; s < SEGMENT_COUNT; s++) none.move[s] = rigid_identity();
+    double scan = planned(j, &none, "U1", u1) && planned(j, &none, "L1", l1) ? l1[BACK] - u1[BACK] : (double)NAN;
+    bool scans_own = limit_judge(&j->patient->limits[LIMIT_OVERJET], overjet) == LIMIT_STOP && overjet * scan > 0 &&
+                     fabs(overjet) <= fabs(scan) + rounding_mm;
+    finding *f = judgement_add(out, j->patient, LIMIT_OVERJET, "", overjet, scans_own,
+                               scans_own ? "the scan itself has it and the plan does not worsen it" : NULL);
+    f->estimated = false;
+    f->scan = scan;
+}
+
 static void judge_incisors(const judge *j, const plan_moves *m, judgement *out)
 {
     static const char *const apart = "the scan shows the jaws apart, so that the plan's bite is not known";
     double u1[3], l1[3];
     bool there = planned(j, m, "U1", u1) && planned(j, m, "L1", l1) && !j->jaws_apart;
-    double overjet = there ? l1[BACK] - u1[BACK] : (double)NAN, overlap = there ? l1[UP] - u1[UP] : (double)NAN;
-    add(j, out, LIMIT_OVERJET, overjet, there ? NULL : apart);
+    double overlap = there ? l1[UP] - u1[UP] : (double)NAN;
+    if (there)
+        judge_overjet(j, m, l1[BACK] - u1[BACK], out);
+    else
+        add(j, out, LIMIT_OVERJET, (double)NAN, apart);
     add(j, out, LIMIT_OVERBITE, overlap, there ? NULL : apart);
     add(j, out, LIMIT_OPEN_BITE, there ? fmax(-overlap, 0) : overlap, there ? NULL : apart);
     add(j, out, LIMIT_DENTAL_MIDLINE, there ? l1[ACROSS] - u1[ACROSS] : (double)NAN, there ? NULL : apart);

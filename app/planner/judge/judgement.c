@@ -9,6 +9,7 @@ finding *judgement_add(judgement *out, const case_file *c, limit_id id, const ch
     *f = (finding){.limit = id,
                    .where = where,
                    .value = value,
+                   .scan = (double)NAN,
                    .level = limit_judge(&c->limits[id], value),
                    .margin = isnan(value) ? HUGE_VAL : limit_margin(&c->limits[id], value),
                    .estimated = estimated,

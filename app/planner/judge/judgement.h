@@ -11,6 +11,7 @@ typedef struct finding {
     limit_id limit;
     const char *where; /* "left", "piriform rim right", or "" */
     double value;      /* in the limit's unit; NaN: not judged */
+    double scan;       /* the same before the plan; NaN: not told */
     limit_level level;
     double margin;  /* to the stop, > 0 inside, infinite where there is none */
     bool estimated; /* rests on an estimated point, so that it is caution at most */

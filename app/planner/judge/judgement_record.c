@@ -4,7 +4,7 @@
 typedef struct judged { /* a finding with what its limit says */
     const char *limit, *where, *what, *source, *unit, *segment, *other, *note, *remedy;
     limit_level level;
-    double value, fine[2], stop[2], margin, place[3];
+    double value, scan, fine[2], stop[2], margin, place[3];
     bool estimated, has_place;
 } judged;
 
@@ -16,6 +16,7 @@ static const record_row judged_row[] = {
     ROW(judged, what, "what", NULL, "what it limits"),
     ROW_WORD(judged, level, "level", LEVEL_WORDS, "how the plan stands to it"),
     ROW(judged, value, "value", NULL, "what the plan makes of it, in its unit"),
+    ROW_OPTIONAL(judged, scan, "scan", NULL, "the same in the scan, before the plan"),
     ROW(judged, fine, "fine", NULL, "range that is fine; null: open"),
     ROW(judged, stop, "stop", NULL, "range beyond which the plan must say why; null: open"),
     ROW(judged, margin, "margin", NULL, "to the nearer end of that range, positive inside"),
@@ -55,6 +56,7 @@ static const void *next_finding(const void *of, int *i, const char **key, void *
                     .remedy = r->audit ? text_or_null(r->audit->remedy[*i]) : NULL,
                     .level = f->level,
                     .value = f->value,
+                    .scan = f->scan,
                     .margin = f->margin,
                     .estimated = f->estimated,
                     .has_place = f->has_place};
