@@ -2,6 +2,7 @@
 #pragma once
 #include "app/planner/patient/case_file.h"
 #include "geometry/landmarks.h"
+#include "geometry/nearest.h"
 #include "geometry/json_file.h"
 
 typedef struct check_found {
@@ -9,6 +10,7 @@ typedef struct check_found {
     mesh_file_report read[CASE_SURFACE_COUNT];
     int32_t open_edges[CASE_SURFACE_COUNT], crowded_edges[CASE_SURFACE_COUNT];
     double diagonal_mm[CASE_SURFACE_COUNT];
+    nearest *tree[CASE_SURFACE_COUNT];   /* over mesh; NULL: none */
     bool wrong_size[CASE_SURFACE_COUNT]; /* not a head in mm: what is measured on it says nothing */
     landmarks points;
     bool has_frame;

@@ -2,7 +2,6 @@
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
 #include "geometry/mem.h"
-#include "geometry/nearest.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,20 +71,14 @@ static void check_distance_to(const case_file *c, const check_found *found, case
 {
     enum { MANY = 3 };
     const double doubtful_mm = 5, wrong_mm = 50;
-    nearest *tree = NULL;
-    err e = {0};
     char far[200] = "";
     int wrong = 0, all = 0;
-    if (!nearest_create(&found->mesh[on], &tree, &e)) {
-        issue_add_err(issues, ISSUE_ERROR, &e, c->surface[on]);
-        return;
-    }
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < landmark_row_count; i++) {
             const landmark_row *r = &landmark_rows[i];
             const landmark *p = landmarks_find(&found->points, r->label);
             if (!p || carrier(r, found) != on) continue;
-            double d = nearest_point(tree, p->xyz, NULL, NULL);
+            double d = nearest_point(found->tree[on], p->xyz, NULL, NULL);
             if (pass == 0) {
                 size_t used = strlen(far);
                 all++;
@@ -102,7 +95,6 @@ static void check_distance_to(const case_file *c, const check_found *found, case
                   "%d of %d landmarks lie more than %g mm from the %s; are both of one patient, in one frame "
                   "and in mm? (%s)",
                   wrong, all, wrong_mm, case_surface_name(on), far);
-    nearest_destroy(&tree);
 }
 
 static void check_sides(const case_file *c, const landmarks *l, issue_list *issues)
@@ -168,5 +160,5 @@ void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
     check_order(c, found, issues);
     check_jaws(c, found, issues);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)
-        if (found->mesh[i].vertex_count && !found->wrong_size[i]) check_distance_to(c, found, (case_surface)i, issues);
+        if (found->tree[i] && !found->wrong_size[i]) check_distance_to(c, found, (case_surface)i, issues);
 }

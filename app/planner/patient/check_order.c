@@ -2,7 +2,6 @@
 #include "app/planner/patient/check.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
-#include "geometry/nearest.h"
 #include <string.h>
 
 typedef enum direction { IN_FRONT, ABOVE } direction;
@@ -61,10 +60,7 @@ void check_jaws(const case_file *c, const check_found *found, issue_list *issues
 {
     const double off_mm = 1, on_mm = 5, nearer = 2; /* times: a point between two jaws that touch is near to both */
     static const int own_teeth[] = {[CASE_SKULL] = CASE_UPPER_TEETH, [CASE_MANDIBLE] = CASE_LOWER_TEETH};
-    nearest *tree[CASE_SURFACE_COUNT] = {0};
-    err e = {0};
-    for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++)
-        if (found->mesh[i].triangle_count && !nearest_create(&found->mesh[i], &tree[i], &e)) e = (err){0};
+    nearest *const *tree = found->tree;
     for (int i = 0; i < landmark_row_count && tree[CASE_SKULL] && tree[CASE_MANDIBLE]; i++) {
         const landmark_row *r = &landmark_rows[i];
         const landmark *p = landmarks_find(&found->points, r->label);
@@ -82,5 +78,4 @@ void check_jaws(const case_file *c, const check_found *found, issue_list *issues
                       other == CASE_SKULL ? "upper jaw" : "lower jaw", gap[0],
                       own == CASE_SKULL ? "upper jaw" : "lower jaw", r->help);
     }
-    for (int i = 0; i < CASE_SURFACE_COUNT; i++) nearest_destroy(&tree[i]);
 }

@@ -1,5 +1,4 @@
 #include "app/planner/patient/check_parts.h"
-#include "geometry/nearest.h"
 #include "geometry/vec.h"
 #include <string.h>
 
@@ -8,7 +7,7 @@ enum { SAMPLES = 1000 };
 typedef struct parts {
     const surface *mesh;
     const char *const *name;
-    nearest *tree[CASE_SURFACE_COUNT]; /* NULL: not there */
+    nearest *const *tree; /* NULL: not there */
     bool closed[CASE_SURFACE_COUNT];
     double middle[CASE_SURFACE_COUNT][3], size_mm[CASE_SURFACE_COUNT]; /* of the box */
 } parts;
@@ -23,24 +22,29 @@ static const char *word(int part)
     return words[part];
 }
 
-static bool make(parts *p, issue_list *issues)
+void check_trees(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT],
+                 nearest *tree[CASE_SURFACE_COUNT], issue_list *issues)
+{
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
+        err e = {0};
+        tree[i] = NULL;
+        if (mesh[i].triangle_count && !nearest_create(&mesh[i], &tree[i], &e))
+            issue_add_err(issues, ISSUE_ERROR, &e, name[i]);
+    }
+}
+
+static void measure(parts *p)
 {
     for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
         double low[3], high[3];
         int32_t open, crowded;
-        err e = {0};
-        if (!p->mesh[i].triangle_count) continue;
-        if (!nearest_create(&p->mesh[i], &p->tree[i], &e)) {
-            issue_add_err(issues, ISSUE_ERROR, &e, p->name[i]);
-            return false;
-        }
+        if (!p->tree[i]) continue;
         surface_edge_census(&p->mesh[i], &open, &crowded);
         p->closed[i] = !open && !crowded;
         surface_bounds(&p->mesh[i], low, high);
         p->size_mm[i] = vec_distance(low, high);
         for (int c = 0; c < 3; c++) p->middle[i][c] = (low[c] + high[c]) / 2;
     }
-    return true;
 }
 
 /* Six times the volume about the middle: its sign tells the side that most triangles show, also of open surfaces. */
@@ -143,17 +147,16 @@ static void check_teeth(const parts *p, int teeth, int own, int other, issue_lis
             word(teeth), word(other), word(own), to_other, to_own);
 }
 
-void check_parts(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT], issue_list *issues)
+void check_parts(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT],
+                 nearest *const tree[CASE_SURFACE_COUNT], issue_list *issues)
 {
-    parts p = {.mesh = mesh, .name = name};
+    parts p = {.mesh = mesh, .name = name, .tree = tree};
     check_facing(&p, issues);
-    if (make(&p, issues)) {
-        check_above(&p, CASE_SKULL, CASE_MANDIBLE, issues);
-        check_above(&p, CASE_UPPER_TEETH, CASE_LOWER_TEETH, issues);
-        check_twice(&p, CASE_MANDIBLE, CASE_SKULL, issues);
-        check_twice(&p, CASE_SKULL, CASE_MANDIBLE, issues);
-        check_teeth(&p, CASE_UPPER_TEETH, CASE_SKULL, CASE_MANDIBLE, issues);
-        check_teeth(&p, CASE_LOWER_TEETH, CASE_MANDIBLE, CASE_SKULL, issues);
-    }
-    for (int i = 0; i < CASE_SURFACE_COUNT; i++) nearest_destroy(&p.tree[i]);
+    measure(&p);
+    check_above(&p, CASE_SKULL, CASE_MANDIBLE, issues);
+    check_above(&p, CASE_UPPER_TEETH, CASE_LOWER_TEETH, issues);
+    check_twice(&p, CASE_MANDIBLE, CASE_SKULL, issues);
+    check_twice(&p, CASE_SKULL, CASE_MANDIBLE, issues);
+    check_teeth(&p, CASE_UPPER_TEETH, CASE_SKULL, CASE_MANDIBLE, issues);
+    check_teeth(&p, CASE_LOWER_TEETH, CASE_MANDIBLE, CASE_SKULL, issues);
 }

@@ -2,7 +2,11 @@
  * inwards. What names and label numbers say is not believed. */
 #pragma once
 #include "app/planner/patient/case_file.h"
+#include "geometry/nearest.h"
 
-/* mesh[i] with vertex_count 0: not there. name[i]: its file, for messages. */
+/* mesh[i] without triangles: not there. name[i]: its file, for messages. Makes tree[i] over each that is there, NULL
+ * for the others and where that is refused, which is an error among the issues; the caller destroys them. */
+void check_trees(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT],
+                 nearest *tree[CASE_SURFACE_COUNT], issue_list *issues);
 void check_parts(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT],
-                 issue_list *issues);
+                 nearest *const tree[CASE_SURFACE_COUNT], issue_list *issues);

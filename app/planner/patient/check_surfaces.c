@@ -1,6 +1,5 @@
 #include "app/planner/patient/check.h"
 #include "app/planner/patient/check_parts.h"
-#include "geometry/nearest.h"
 #include "geometry/plane_file.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
@@ -88,7 +87,8 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
     }
     const char *name[CASE_SURFACE_COUNT];
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) name[i] = c->surface[i];
-    check_parts(found->mesh, name, issues);
+    check_trees(found->mesh, name, found->tree, issues);
+    check_parts(found->mesh, name, found->tree, issues);
 }
 
 /* True if p lies outside the skin: for a closed skin by the crossings of rays; for an open one by the side of the
@@ -114,13 +114,8 @@ void check_bones_inside(const case_file *c, const check_found *found, issue_list
     enum { SAMPLES = 1000 };
     const double through_mm = 1; /* incisors may touch or cross a lip */
     const surface *skin = &found->mesh[CASE_SKIN];
-    nearest *tree = NULL;
-    err e = {0};
-    if (!skin->vertex_count || found->wrong_size[CASE_SKIN]) return;
-    if (!nearest_create(skin, &tree, &e)) {
-        issue_add_err(issues, ISSUE_ERROR, &e, c->surface[CASE_SKIN]);
-        return;
-    }
+    const nearest *tree = found->tree[CASE_SKIN];
+    if (!tree || found->wrong_size[CASE_SKIN]) return;
     double sign = surface_volume(skin) < 0 ? -1 : 1;
     bool closed = found->open_edges[CASE_SKIN] == 0 && found->crowded_edges[CASE_SKIN] == 0;
     for (int i = CASE_SKULL; i < CASE_SURFACE_COUNT; i++) {
@@ -146,7 +141,6 @@ void check_bones_inside(const case_file *c, const check_found *found, issue_list
                       "%.0f %% of the %s lies outside the skin, up to %.1f mm", share,
                       case_surface_name((case_surface)i), farthest);
     }
-    nearest_destroy(&tree);
 }
 
 void check_planes(const case_file *c, issue_list *issues)
@@ -172,6 +166,9 @@ void check_planes(const case_file *c, issue_list *issues)
 
 void check_found_free(check_found *found)
 {
-    for (int i = 0; i < CASE_SURFACE_COUNT; i++) surface_free(&found->mesh[i]);
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
+        nearest_destroy(&found->tree[i]);
+        surface_free(&found->mesh[i]);
+    }
     landmarks_free(&found->points);
 }

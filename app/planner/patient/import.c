@@ -144,12 +144,15 @@ static bool check_against_each_other(const import_result *r, issue_list *notes, 
 {
     const char *name[CASE_SURFACE_COUNT];
     surface mesh[CASE_SURFACE_COUNT]; /* borrowed */
+    nearest *tree[CASE_SURFACE_COUNT];
     issue_list found = {0};
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
         name[i] = r->part[i].source;
         mesh[i] = r->part[i].mesh;
     }
-    check_parts(mesh, name, &found);
+    check_trees(mesh, name, tree, &found);
+    check_parts(mesh, name, tree, &found);
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) nearest_destroy(&tree[i]);
     for (int i = 0; i < found.count; i++)
         if (found.item[i].level != ISSUE_ERROR)
             issue_add(notes, found.item[i].level, ERR_NONE, found.item[i].file, 0, NULL, "%s", found.item[i].text);
