@@ -30,12 +30,7 @@ static bool run(run_context *r, err *e)
     issue_list issues = {0};
     err first = {0};
     bool readable = case_file_read(r->argument[0], c, &issues);
-    command_progress_at(&r->common, "surfaces", -1);
-    check_surfaces(c, &found, &issues);
-    check_bones_inside(c, &found, &issues);
-    command_progress_at(&r->common, "landmarks", -1);
-    check_landmarks(c, &found, &issues);
-    check_planes(c, &issues);
+    check_case(c, &r->watch, &found, &issues);
     bool planned = plan && plan_file_read(r->plan_path, c, &r->plan, &issues);
     if (planned && readable && found.has_frame)
         planned = plan_moves_make(&r->plan, c, &found.points, &r->moves, &issues);

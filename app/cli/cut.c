@@ -81,7 +81,6 @@ static void print_plain(const anatomy *a, const char *target)
         printf("  island of %.1f mm3 from the %s: %s the %s, %.2f mm away\n", f->volume_mm3, segment_name(f->from),
                f->from == f->to ? "stays with" : "goes to", segment_name(f->to), f->gap_mm);
     }
-    for (int i = 0; i < r->warning_count; i++) printf("  warning: %s\n", r->warning[i]);
     printf("%s\n", target);
 }
 
@@ -105,6 +104,7 @@ static bool run(run_context *r, err *e)
 {
     anatomy a = {0};
     bool ok = anatomy_make(&r->patient, false, &r->watch, &a, e);
+    command_print_issues(&r->common, &a.warnings);
     json_t *report = ok ? cut_record_json(&r->patient, &a) : NULL;
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
     ok = ok && write_all(&r->patient, &a, report, &r->dir, e) && output_dir_close(&r->dir, e);

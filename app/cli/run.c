@@ -1,4 +1,7 @@
 #include "app/cli/verb.h"
+#if GNATHOS_WITH_CGAL
+#include "app/planner/patient/prepared_report.h"
+#endif
 #include "geometry/clock.h"
 #include "geometry/mem.h"
 #include <stdio.h>
@@ -53,10 +56,14 @@ static bool open_plan(run_context *r, err *e)
     return ok;
 }
 
-static bool open_prepared(run_context *r, err *e)
+bool verb_prepare_case(run_context *r, err *e)
 {
 #if GNATHOS_WITH_CGAL
-    return prepared_get(&r->patient, r->cache, &r->watch, &r->prepared, e);
+    if (!prepared_get(&r->patient, r->cache, &r->watch, &r->prepared, e)) return false;
+    issue_list warnings = prepared_warnings(&r->prepared, &r->patient);
+    command_print_issues(&r->common, &warnings);
+    issue_list_free(&warnings);
+    return true;
 #else
     (void)r;
     return err_set(e, ERR_INTERNAL, "this build prepares nothing (GNATHOS_CGAL=OFF)");
@@ -70,7 +77,7 @@ static bool open_all(run_context *r, err *e)
            (!(need & NEED_POINTS) || landmarks_read(r->patient.landmarks, &r->points, NULL, e)) &&
            (!r->verb->early || r->verb->early(r, e)) && (!(need & (NEED_PLAN | NEED_PLAN_JUDGED)) || open_plan(r, e)) &&
            (!(need & NEED_OUTPUT) || !r->out_path || output_dir_open(r->out_path, r->force, &r->dir, e)) &&
-           (!(need & NEED_PREPARED) || open_prepared(r, e));
+           (!(need & NEED_PREPARED) || verb_prepare_case(r, e));
 }
 
 static void close_all(run_context *r)

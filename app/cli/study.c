@@ -106,15 +106,11 @@ static bool study(const run_context *r, study_task *work, const char *plan_name,
     return ok;
 }
 
-/* The case's own mesh is needed to know landmarks and frame. */
-static bool ratios(const run_context *r, study_task *work, err *e)
+static bool ratios(run_context *r, study_task *work, err *e)
 {
-    prepared p;
-    if (!prepared_get(work->patient, r->cache, work->watch, &p, e)) return false;
     json_t *record = NULL;
-    bool ok = study_ratios(work, &p, stdout, r->common.json ? &record : NULL, e);
+    bool ok = study_ratios(work, &r->prepared, stdout, r->common.json ? &record : NULL, e);
     if (ok && record) command_print_record(record);
-    prepared_free(&p);
     return ok;
 }
 
@@ -128,7 +124,7 @@ static bool run(run_context *r, err *e)
                        .cache = r->cache,
                        .name = "plan"};
     memcpy(work.motion, r->moves.move, sizeof work.motion);
-    if (!open_folder(r->out_path, e)) return false;
+    if (!open_folder(r->out_path, e) || !verb_prepare_case(r, e)) return false;
     return o->ratios ? ratios(r, &work, e) : study(r, &work, *r->plan.name ? r->plan.name : "plan", e);
 }
 

@@ -86,6 +86,9 @@ enum { KEY_CACHE = 300, KEY_OWN };
 /* Runs a verb; argv[0] is "gnathos <verb>". Returns the exit status. Leaves by itself (argp) on a wrong command line.
  */
 int verb_run(const verb *v, int argc, char **argv);
+/* What NEED_PREPARED does, for verbs that do something before: fills r->prepared and tells what is doubtful about the
+ * case, in the words of gnathos check. */
+bool verb_prepare_case(run_context *r, err *e) MUST_CHECK;
 
 extern const verb verb_audit, verb_ceph, verb_check, verb_compare, verb_cut, verb_export, verb_help, verb_import,
     verb_new, verb_predict, verb_prepare, verb_render, verb_report, verb_stress, verb_study;

@@ -136,7 +136,6 @@ export function cuts(outcome) {
                   rows,
               )
             : null,
-        ...c.warnings.map(w => make("p", { class: "warning" }, w)),
     ].filter(Boolean);
 }
 

@@ -18,7 +18,7 @@ fi
 "$gnathos" check -q "$work/case" --plan "$plan" --json >"$work/check.json"
 # what is printed is the record in the folder
 # shellcheck disable=SC2086
-"$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" $pictures --json >"$work/predict.json"
+"$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" $pictures --json >"$work/predict.json" 2>"$work/warned.txt"
 cmp "$work/predict.json" "$work/out/outcome.json" || fail "predict prints another record than it writes"
 "$gnathos" audit "$work/case" --plan "$plan" -o "$work/judged" --json -q >"$work/audit.json" # feasible: status 0
 cmp "$work/audit.json" "$work/judged/audit.json" || fail "audit prints another record than it writes"
@@ -61,9 +61,23 @@ for l in o["landmarks"]:
 PY
 [ -n "$pictures" ] || [ -s "$work/out/pictures/overview.png" ] || fail "no pictures"
 # prepared once: the second plan of the case reuses it
-"$gnathos" predict "$work/case" --plan "$plan" -o "$work/again" --no-pictures >"$work/again.txt"
+"$gnathos" predict "$work/case" --plan "$plan" -o "$work/again" --no-pictures >"$work/again.txt" 2>"$work/warned_again.txt"
 cat "$work/again.txt"
 grep -q reused "$work/again.txt" || fail "the prepared case was not reused"
+# no face without what is doubtful about its case: told by every verb, in check's words, and judged
+cmp "$work/warned.txt" "$work/warned_again.txt" || fail "the second prediction tells other warnings"
+"$gnathos" check "$work/case" 2>&1 >/dev/null | grep 'warning: ' >"$work/checked.txt" || true
+grep -v '^gnathos: cuts: ' "$work/warned.txt" | cmp - "$work/checked.txt" || fail "predict warns of something else than check"
+/usr/bin/python3 - "$work" <<'PY'
+import json, sys
+o = json.load(open(sys.argv[1] + "/out/outcome.json"))
+doubts = o["prepared"]["warnings"]
+judged = [l for l in o["limits"]["limits"] if l["limit"] == "case_warnings" and l["level"] == "caution"]
+assert [w["text"] for w in doubts] == [l["note"] for l in judged], (doubts, judged)
+assert [w["text"] for w in doubts if w["part"] == "cuts"] == o["prepared"]["cuts"]["warnings"]
+told = open(sys.argv[1] + "/warned.txt").read().splitlines()
+assert len(told) == len(doubts) > 0 and all(t.endswith("warning: " + w["text"]) for t, w in zip(told, doubts)), told
+PY
 cmp "$work/out/skin_after.ply" "$work/again/skin_after.ply" || fail "the same plan gave another face"
 cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave another tissue"
 # the profile is measured, and the outcome compares with itself as equal and with the face before as changed

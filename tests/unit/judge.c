@@ -2,6 +2,7 @@
 #include "tests/check.h"
 #include "tests/unit/bodies.h"
 #include "app/planner/judge/judgement_record.h"
+#include "app/planner/patient/prepared_report.h"
 #include "geometry/vec.h"
 
 static case_file patient;
@@ -280,6 +281,38 @@ static void an_overjet_of_the_scan_cautions_until_the_plan_worsens_it(void **sta
     patient.limits[LIMIT_MANDIBLE_ADVANCE] = limit_default[LIMIT_MANDIBLE_ADVANCE].range;
 }
 
+static void warnings_of_the_case_are_findings_of_every_plan(void **state)
+{
+    (void)state;
+    judgement j;
+    plan_file p = still();
+    judged(&p, &j);
+    assert_int_equal(find(&j, LIMIT_CASE_WARNINGS)->level, LIMIT_FINE);
+    head.report = json_pack("{s[{ssss}{ssssss}]}", "warnings", "part", "cuts", "text", "Pog lies on the cranium",
+                            "part", "landmarks", "field", "U1", "text", "lies 6.0 mm from the skull");
+    judged(&p, &j);
+    const finding *f = find(&j, LIMIT_CASE_WARNINGS);
+    assert_string_equal(f[0].where, "cuts");
+    assert_string_equal(f[0].note, "Pog lies on the cranium");
+    assert_string_equal(f[1].where, "U1");
+    assert_string_equal(f[1].note, "lies 6.0 mm from the skull");
+    for (int i = 0; i < 2; i++) assert_int_equal(f[i].level, LIMIT_CAUTION);
+    assert_int_not_equal(j.finding[j.reason].limit, LIMIT_CASE_WARNINGS); /* what has a margin decides */
+    issue_list told = prepared_warnings(&head, &patient);
+    assert_int_equal(told.count, 2);
+    assert_string_equal(told.item[0].field, "cuts");
+    assert_string_equal(told.item[1].field, "U1");
+    issue_list_free(&told);
+    json_t *many = json_array(), *one = json_pack("{ssss}", "part", "skull", "text", "doubtful");
+    for (int i = 0; i < 1000; i++) json_array_append(many, one);
+    json_decref(one);
+    json_object_set_new(head.report, "warnings", many);
+    judged(&p, &j); /* and none is lost without a word */
+    assert_near(j.finding[j.count - 1].value, 960, 0);
+    json_decref(head.report);
+    head.report = NULL;
+}
+
 /* A second head whose teeth touch: apart they lead what is said of the plan. */
 static void teeth_that_no_longer_meet_lead(void **state)
 {
@@ -336,6 +369,7 @@ int main(void)
         cmocka_unit_test(a_canted_bite_is_told),
         cmocka_unit_test(a_bite_that_does_not_fit_stops),
         cmocka_unit_test(an_overjet_of_the_scan_cautions_until_the_plan_worsens_it),
+        cmocka_unit_test(warnings_of_the_case_are_findings_of_every_plan),
         cmocka_unit_test(teeth_that_no_longer_meet_lead),
     };
     return cmocka_run_group_tests(tests, make_head, drop_head);

@@ -118,4 +118,5 @@ void judge_plan(const judge *j, const plan_moves *m, judgement *out)
     judge_teeth(j, m, out);
     judge_bite(j, m, out);
     judge_cuts(j, out);
+    judge_warnings(j, out);
 }

@@ -5,7 +5,7 @@
 #pragma once
 #include "app/planner/patient/case_file.h"
 
-enum { FINDINGS_MAX = 192 }; /* a class III head with all cuts has 98 */
+enum { FINDINGS_MAX = 256 }; /* a class III head with all cuts has 98 */
 
 typedef struct finding {
     limit_id limit;

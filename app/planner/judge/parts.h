@@ -82,3 +82,4 @@ void judge_nerve(const judge *j, const plan_moves *m, judgement *out);
 void judge_teeth(const judge *j, const plan_moves *m, judgement *out);
 void judge_bite(const judge *j, const plan_moves *m, judgement *out);
 void judge_cuts(const judge *j, judgement *out);
+void judge_warnings(const judge *j, judgement *out);

@@ -7,8 +7,8 @@ void plan_audit_make(const judge *j, const case_file *c, const prepared *p, cons
     judge_plan(j, moves, &out->judgement);
     for (int i = 0; i < out->judgement.count; i++) {
         const finding *f = &out->judgement.finding[i];
-        bool of_the_cuts = f->limit >= LIMIT_ROOT_CLEARANCE && f->limit <= LIMIT_CUT_MARGIN;
-        if (f->level >= LIMIT_CAUTION && !of_the_cuts)
+        bool of_the_case = f->limit >= LIMIT_ROOT_CLEARANCE && f->limit <= LIMIT_CASE_WARNINGS;
+        if (f->level >= LIMIT_CAUTION && !of_the_case)
             (void)remedy_find(j, c, p, plan, &out->judgement, i, out->remedy[i]);
     }
 }

@@ -1,4 +1,5 @@
 #include "app/planner/patient/anatomy.h"
+#include "app/planner/patient/check.h"
 #include "geometry/boolean.h"
 #include "geometry/mem.h"
 #include "geometry/mesh_file.h"
@@ -16,13 +17,9 @@ static bool read_solid(const case_file *c, case_surface which, const task *watch
                        repair_report *report, err *e)
 {
     if (stopped(watch, e)) return false;
-    mesh_file_report read;
     repair_params p = repair_params_default();
     surface in = {0};
-    if (!mesh_read_surface(c->surface[which], case_file_space(c), &in, &read, e)) return false;
-    if (read.joined_vertices)
-        task_note(watch, "%s: warning: holds loose triangles; %d corners were joined with others within %g mm",
-                  c->surface[which], read.joined_vertices, read.joined_mm);
+    if (!mesh_read_surface(c->surface[which], case_file_space(c), &in, NULL, e)) return false;
     if (!repair_solid(&in, &p, solid, report, e)) {
         surface_free(&in);
         return err_prefix(e, "%s", c->surface[which]);
@@ -91,17 +88,20 @@ static bool cut(const case_file *c, anatomy *a, err *e)
     in.plane = planes;
     bool ok = osteotomy_params_check(&c->cuts, e) && osteotomy_cut(&in, &c->cuts, &a->segments, &a->cuts, e);
     free(planes);
+    for (int i = 0; ok && i < a->cuts.warning_count; i++)
+        issue_add(&a->warnings, ISSUE_WARNING, ERR_NONE, NULL, 0, "cuts", "%s", a->cuts.warning[i]);
     return ok;
 }
 
 bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out, err *e)
 {
     anatomy a = {0};
-    task_progress(watch, "reading and repairing the surfaces", 0);
-    bool ok = landmarks_read(c->landmarks, &a.points, NULL, e) && head_frame_from_landmarks(&a.points, &a.frame, e) &&
-              read_bone(c, CASE_SKULL, CASE_UPPER_TEETH, watch, &a.skull, &a.skull_repair, e) &&
-              read_bone(c, CASE_MANDIBLE, CASE_LOWER_TEETH, watch, &a.mandible, &a.mandible_repair, e) &&
-              (!skin || read_solid(c, CASE_SKIN, watch, &a.skin, &a.closed_skin, &a.skin_repair, e));
+    bool ok = check_case_passes(c, watch, &a.warnings, e);
+    task_progress(watch, "reading and repairing the surfaces", 0.1);
+    ok = ok && landmarks_read(c->landmarks, &a.points, NULL, e) && head_frame_from_landmarks(&a.points, &a.frame, e) &&
+         read_bone(c, CASE_SKULL, CASE_UPPER_TEETH, watch, &a.skull, &a.skull_repair, e) &&
+         read_bone(c, CASE_MANDIBLE, CASE_LOWER_TEETH, watch, &a.mandible, &a.mandible_repair, e) &&
+         (!skin || read_solid(c, CASE_SKIN, watch, &a.skin, &a.closed_skin, &a.skin_repair, e));
     if (ok) {
         task_progress(watch, "cutting the bones", 0.2);
         ok = !stopped(watch, e) && cut(c, &a, e) && !stopped(watch, e);
@@ -123,4 +123,5 @@ void anatomy_free(anatomy *a)
     surface_free(&a->mandible);
     segments_free(&a->segments);
     cut_report_free(&a->cuts);
+    issue_list_free(&a->warnings);
 }

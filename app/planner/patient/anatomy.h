@@ -15,9 +15,11 @@ typedef struct anatomy {
     segments segments;
     repair_report skin_repair, skull_repair, mandible_repair;
     cut_report cuts;
+    issue_list warnings; /* of check_case, then of the cuts */
 } anatomy;
 
-/* Reads and repairs skull and mandible and cuts them. `skin` false leaves the skin out. Asks watch, which may be NULL,
- * between its steps. The caller frees *out. */
+/* Checks the case, reads and repairs skull and mandible and cuts them. `skin` false leaves the skin out. Asks watch,
+ * which may be NULL, between its steps. Refuses what check_case_passes refuses before anything long. The caller frees
+ * *out. */
 bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out, err *e) MUST_CHECK;
 void anatomy_free(anatomy *a);

@@ -1,6 +1,8 @@
-/* check: the parts of `gnathos check`. Each adds issues and what it found to `found`. */
+/* check: what is wrong with a case, told by `gnathos check`, and asked by everything that prepares one. Each part adds
+ * issues and what it found to `found`. */
 #pragma once
 #include "app/planner/patient/case_file.h"
+#include "app/planner/store/task.h"
 #include "geometry/landmarks.h"
 #include "geometry/nearest.h"
 #include "geometry/json_file.h"
@@ -16,6 +18,12 @@ typedef struct check_found {
     bool has_frame;
     double frame_residual_mm;
 } check_found;
+
+/* All parts in their order. An interruption leaves the rest out; watch may be NULL. The caller frees *found. */
+void check_case(const case_file *c, const task *watch, check_found *found, issue_list *issues);
+/* The same for who goes on with the case: refuses the first error, in its words and with its code, and an interruption;
+ * adds the warnings to `warnings`. */
+bool check_case_passes(const case_file *c, const task *watch, issue_list *warnings, err *e) MUST_CHECK;
 
 void check_surfaces(const case_file *c, check_found *found, issue_list *issues);
 /* Bones against skin; needs what check_surfaces found. */

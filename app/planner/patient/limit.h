@@ -109,7 +109,7 @@
     X(OCCLUSAL_CANT, occlusal_cant_deg, "deg", -2, 2, -LIMIT_OPEN, LIMIT_OPEN, "occlusal plane, left side down",       \
       "own limit, no published number; 2 degrees are 1.7 mm between the first molars")
 
-/* Of the cuts themselves: no plan changes them. */
+/* Of the case and its cuts: no plan changes them. */
 #define LIMITS_OF_CUTS(X)                                                                                              \
     X(ROOT_CLEARANCE, root_clearance_mm, "mm", 5, LIMIT_OPEN, 1, LIMIT_OPEN, "cut to a root tip, bone for the screws", \
       "5 mm (Atlas of Operative Oral and Maxillofacial Surgery 2023, ch. 27 and 30); below 1 mm: own limit")           \
@@ -121,7 +121,9 @@
     X(CHIN_HEIGHT, chin_height_mm, "mm", 10, LIMIT_OPEN, -LIMIT_OPEN, LIMIT_OPEN,                                      \
       "height of the chin piece, for the plate", "clinical custom")                                                    \
     X(CUT_MARGIN, cut_margin_mm, "mm", 0, LIMIT_OPEN, -LIMIT_OPEN, LIMIT_OPEN, "other margins of the cuts",            \
-      "the case's \"cuts\"")
+      "the case's \"cuts\"")                                                                                           \
+    X(CASE_WARNINGS, case_warnings, "", 0, 0, -LIMIT_OPEN, LIMIT_OPEN, "something doubtful about the case",            \
+      "gnathos check and the cuts warn of it")
 
 /* Of the predicted face: known after the solve. */
 #define LIMITS_OF_TISSUE(X)                                                                                            \

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Raise it whenever the way from case to tissue changes: old files are then made anew. */
-static const double format = 3;
+/* Raise it whenever the way from case to tissue changes, or what is checked: old files are then made anew. */
+static const double format = 4;
 
 static const double skin_reach_mm = 2; /* of a skin vertex from the tets that may carry it */
 
@@ -193,7 +193,7 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
         p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
         r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;
         r.skin_gap_max_mm = p.skin_on_tissue.max_gap_mm;
-        p.report = prepared_report(&a, &r, cut - start, clock_s() - cut);
+        p.report = prepared_report(c, &a, &r, cut - start, clock_s() - cut);
         p.frame = a.frame;
         p.points = a.points;
         p.skin = a.skin;

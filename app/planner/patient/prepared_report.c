@@ -1,4 +1,5 @@
 #include "app/planner/patient/prepared_report.h"
+#include "app/planner/patient/case_warnings.h"
 #include "app/planner/patient/cut_record.h"
 
 static const record_row mesh_row[] = {
@@ -35,6 +36,8 @@ typedef struct prepared_numbers {
     const cut_report *cuts;
     double gap_mean_mm, gap_max_mm, bones_s, tissue_s;
     const char *left_out;
+    int warnings;
+    const case_warning *warning;
 } prepared_numbers;
 
 static const record_row report_row[] = {
@@ -47,13 +50,16 @@ static const record_row report_row[] = {
     ROW(prepared_numbers, gap_mean_mm, "skin_gap_mean_mm", "mm", "mean distance of the skin from its tetrahedra"),
     ROW(prepared_numbers, gap_max_mm, "skin_gap_max_mm", "mm", "largest distance of the skin from them"),
     ROW(prepared_numbers, left_out, "left_out", NULL, "what is not meshed"),
+    ROW_ARRAY(prepared_numbers, warning, warnings, &case_warning_table, "warnings", "what is doubtful about the case"),
     ROW(prepared_numbers, bones_s, "seconds.bones", "s", "wall time of repair and cuts"),
     ROW(prepared_numbers, tissue_s, "seconds.tissue", "s", "wall time of the mesh"),
 };
 const record_table prepared_report_table = {.title = "Preparation of a case", RECORD_ROWS(report_row)};
 
-json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s, double tissue_s)
+json_t *prepared_report(const case_file *c, const anatomy *a, const tissue_report *r, double bones_s, double tissue_s)
 {
+    case_warnings doubts;
+    case_warnings_make(c, &a->warnings, &doubts);
     const prepared_numbers n = {.tissue = r,
                                 .skin = &a->skin_repair,
                                 .skull = &a->skull_repair,
@@ -63,8 +69,22 @@ json_t *prepared_report(const anatomy *a, const tissue_report *r, double bones_s
                                 .gap_max_mm = r->skin_gap_max_mm,
                                 .bones_s = bones_s,
                                 .tissue_s = tissue_s,
-                                .left_out = r->left_out};
-    return record_part(&prepared_report_table, &n);
+                                .left_out = r->left_out,
+                                .warnings = doubts.count,
+                                .warning = doubts.item};
+    json_t *report = record_part(&prepared_report_table, &n);
+    case_warnings_free(&doubts);
+    return report;
+}
+
+issue_list prepared_warnings(const prepared *p, const case_file *c)
+{
+    case_warnings doubts;
+    issue_list out = {0};
+    case_warnings_read(json_object_get(p->report, "warnings"), &doubts);
+    case_warnings_issues(&doubts, c, &out);
+    case_warnings_free(&doubts);
+    return out;
 }
 
 static const record_row record_rows[] = {
