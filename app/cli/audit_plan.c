@@ -5,17 +5,31 @@
 #if GNATHOS_WITH_RENDER
 #include "app/pictures/worst_places.h"
 #endif
+#include "app/planner/plan/plan_json.h"
 #include "geometry/mem.h"
 #include <stdio.h>
 #include <stdlib.h>
 
-/* audit.json and, where this build draws, worst_places.png. */
+static bool write_remedy(const plan_audit *a, const output_dir *dir, err *e)
+{
+    if (!a->remedy.found) return true;
+    char name[FIELD_TEXT_SIZE], *path = output_dir_file(dir, "remedy.json");
+    snprintf(name, sizeof name, "%.200s, remedy", a->plan->name);
+    json_t *plan = plan_json(&a->remedy.plan, name);
+    bool ok = json_file_write(plan, path, e);
+    json_decref(plan);
+    free(path);
+    return ok;
+}
+
+/* audit.json, remedy.json where there is one and, where this build draws, worst_places.png. */
 static bool write_all(const judge *j, const plan_audit *a, const json_t *record, const plan_moves *moves,
                       const output_dir *dir, err *e)
 {
     char *path = output_dir_file(dir, "audit.json");
     bool ok = json_file_write(record, path, e);
     free(path);
+    ok = ok && write_remedy(a, dir, e);
 #if GNATHOS_WITH_RENDER
     char title[FIELD_TEXT_SIZE * 2 + 16];
     snprintf(title, sizeof title, "%s: %s", a->patient->name, a->plan->name);
@@ -23,7 +37,6 @@ static bool write_all(const judge *j, const plan_audit *a, const json_t *record,
     ok = ok && judge_picture_write(j, moves, &a->judgement, title, path, e);
     free(path);
 #else
-    (void)a;
     (void)j;
     (void)moves;
 #endif

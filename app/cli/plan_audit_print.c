@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static void print_finding(const plan_audit *a, const finding *f, const char *remedy)
+static void print_finding(const plan_audit *a, const finding *f)
 {
     const limit *l = &limit_default[f->limit];
     const limit_range *r = &a->patient->limits[f->limit];
@@ -14,9 +14,43 @@ static void print_finding(const plan_audit *a, const finding *f, const char *rem
     }
     if (isfinite(f->margin)) snprintf(margin, sizeof margin, "%.2f", f->margin);
     if (!isnan(f->scan)) snprintf(scan, sizeof scan, "  in the scan %.2f", f->scan);
-    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s%s%s\n", limit_level_name(f->level), name, f->value,
+    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s\n", limit_level_name(f->level), name, f->value,
            limit_range_words(r->fine, fine), limit_range_words(r->stop, stop), margin,
-           f->estimated ? "  estimated" : "", scan, *remedy ? "  -> " : "", remedy);
+           f->estimated ? "  estimated" : "", scan);
+}
+
+static void print_stops(const judgement *j)
+{
+    int count = 0;
+    for (int i = 0; i < j->count; i++) {
+        const finding *f = &j->finding[i];
+        if (f->level != LIMIT_STOP) continue;
+        printf("%s%s%s%s", count++ ? "; " : "", limit_default[f->limit].name, *f->where ? ", " : "", f->where);
+    }
+}
+
+static void print_remedy(const remedy *r)
+{
+    if (!r->found) {
+        printf(
+            "No remedy was found: no change of the pieces that the plan moves brings all limits together. Nearest to it, "
+            "these still stop: ");
+        print_stops(&r->after);
+        printf(".\n");
+        return;
+    }
+    int caution = 0;
+    for (int i = 0; i < r->after.count; i++) caution += r->after.finding[i].level == LIMIT_CAUTION;
+    printf("Remedy, the nearest plan found that nothing stops (judged again: %d caution); -o DIR writes it as "
+           "DIR/remedy.json:\n",
+           caution);
+    for (int i = 0; i < r->change_count; i++) {
+        const remedy_change *x = &r->change[i];
+        if (isfinite(x->wanted))
+            printf("  %-28s %8.2f -> %.2f %s\n", x->control, x->wanted, x->proposed, x->unit);
+        else
+            printf("  %-28s by %+.2f %s, besides the matrix\n", x->control, x->by, x->unit);
+    }
 }
 
 void plan_audit_print(const plan_audit *a)
@@ -30,11 +64,10 @@ void plan_audit_print(const plan_audit *a)
     static const limit_level order[] = {LIMIT_STOP, LIMIT_CAUTION, LIMIT_FINE, LIMIT_NOT_JUDGED};
     for (int k = 0; k < 4; k++)
         for (int i = 0; i < j->count; i++)
-            if (j->finding[i].level == order[k]) print_finding(a, &j->finding[i], a->remedy[i]);
-    printf(
-        "\nThe soft tissue (stretch, incisor show, proportions) is judged by gnathos predict. ->: the smallest single "
-        "change of the plan that brings the limit to the next better level and none to a worse one.\n");
+            if (j->finding[i].level == order[k]) print_finding(a, &j->finding[i]);
+    printf("\nThe soft tissue (stretch, incisor show, proportions) is judged by gnathos predict.\n");
     if (j->worst != LIMIT_STOP) return;
+    print_remedy(&a->remedy);
     if (*a->plan->override)
         printf("Stops accepted because: %s\n", a->plan->override);
     else

@@ -28,7 +28,7 @@ says 'maxilla_impaction_mm' help plan
 says 'porion' help landmarks
 says 'solve.contact.depth_mm' help outcome
 says 'plan.segments.<segment>.matrix' help outcome
-says 'limits[].remedy' help --record plan_audit
+says 'remedy.changes' help --record plan_audit
 says '"additionalProperties": false' help --schema check
 says 'no errors, 0 warnings' check .
 says 'no errors, 0 warnings' check case.json --plan plan.json

@@ -39,6 +39,20 @@ status=0
 "$gnathos" predict "$work/case" --plan "$work/bite.json" -o "$work/none" -q 2>"$work/refused.txt" || status=$?
 [ $status -eq 6 ] && [ ! -e "$work/none" ] || fail "teeth 8 mm into each other are not refused: status $status"
 grep -q 'override' "$work/refused.txt" || fail "the refusal does not say how to go on: $(cat "$work/refused.txt")"
+# a plan that several limits stop has one remedy, a plan that is feasible as it is written
+printf '{ "gnathos": 1, "maxilla_advance_mm": 9, "mandible_advance_mm": -12 }\n' >"$work/far.json"
+status=0
+"$gnathos" audit "$work/case" --plan "$work/far.json" -o "$work/far" --json -q >"$work/far_audit.json" || status=$?
+[ $status -eq 6 ] || fail "a plan beyond its limits ends with status $status"
+"$gnathos" audit "$work/case" --plan "$work/far/remedy.json" --json -q >"$work/remedy_audit.json"
+/usr/bin/python3 - "$work" <<'PY'
+import json, sys
+far, then = (json.load(open("%s/%s.json" % (sys.argv[1], n))) for n in ("far_audit", "remedy_audit"))
+assert sum(l["level"] == "stop" for l in far["limits"]) >= 2 and far["remedy"]["found"], far["remedy"]
+assert then["feasible"] and then["worst"] != "stop" and then["remedy"] is None
+value = {l["limit"]: l["value"] for l in then["limits"]}
+for change in far["remedy"]["changes"]: assert abs(value[change["control"]] - change["proposed"]) < 1e-6, change
+PY
 /usr/bin/python3 - "$work/out" <<'PY'
 import json, os, sys
 out = sys.argv[1]
@@ -88,7 +102,7 @@ cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave 
 cmp "$work/compared.json" "$work/compared/comparison.json" || fail "compare prints another record than it writes"
 "$gnathos" ceph "$work/out" --json >"$work/ceph.json"
 "$gnathos" export "$work/out" --format obj -o "$work/shapes" --json >"$work/export.json"
-for record in made check predict audit prepare same before compared ceph export; do
+for record in made check predict audit far_audit remedy_audit prepare same before compared ceph export; do
     /usr/bin/python3 "$(dirname "$0")/check_record.py" "$gnathos" "$work/$record.json"
 done
 [ -s "$work/compared/comparison.vtp" ] && [ -s "$work/compared/regions.csv" ] || fail "compare wrote no files"

@@ -1,8 +1,9 @@
 #include "app/planner/judge/judgement_record.h"
+#include <stdio.h>
 #include <string.h>
 
 typedef struct judged { /* a finding with what its limit says */
-    const char *limit, *where, *what, *source, *unit, *segment, *other, *note, *remedy;
+    const char *limit, *where, *what, *source, *unit, *segment, *other, *note;
     limit_level level;
     double value, scan, fine[2], stop[2], margin, place[3];
     bool estimated, has_place;
@@ -27,9 +28,6 @@ static const record_row judged_row[] = {
     ROW_OPTIONAL(judged, segment, "segment", NULL, "the bone it is about"),
     ROW_OPTIONAL(judged, other, "other_segment", NULL, "and the other one"),
     ROW_OPTIONAL(judged, note, "note", NULL, "why it is not judged, or what to know"),
-    ROW_OPTIONAL(
-        judged, remedy, "remedy", NULL,
-        "the smallest single change of the plan that brings it to the next better level and none to a worse one"),
 };
 static const record_table judged_table = {.title = "A finding", RECORD_ROWS(judged_row)};
 
@@ -53,7 +51,6 @@ static const void *next_finding(const void *of, int *i, const char **key, void *
                     .segment = f->segment_a >= 0 ? segment_name((segment_id)f->segment_a) : NULL,
                     .other = f->segment_b >= 0 ? segment_name((segment_id)f->segment_b) : NULL,
                     .note = f->note,
-                    .remedy = r->audit ? text_or_null(r->audit->remedy[*i]) : NULL,
                     .level = f->level,
                     .value = f->value,
                     .scan = f->scan,
@@ -85,11 +82,59 @@ judgement_record judgement_record_of(const judgement *j, const case_file *c, con
                               .patient = c};
 }
 
+static const record_row change_row[] = {
+    ROW(remedy_change, control, "control", NULL, "name of the control"),
+    ROW(remedy_change, unit, "unit", NULL, "mm or deg"),
+    ROW(remedy_change, by, "by", NULL, "how much more than wanted, in that unit"),
+    ROW(remedy_change, wanted, "wanted", NULL, "as in the plan; null: a matrix moves the piece"),
+    ROW(remedy_change, proposed, "proposed", NULL, "as in the remedy"),
+};
+static const record_table change_table = {.title = "A change of a remedy", RECORD_ROWS(change_row)};
+
+static const void *next_change(const void *of, int *i, const char **key, void *space)
+{
+    const remedy *r = of;
+    (void)key, (void)space;
+    return *i < r->change_count ? &r->change[*i] : NULL;
+}
+
+static const void *next_stop(const void *of, int *i, const char **key, void *space)
+{
+    const judgement *j = &((const remedy *)of)->after;
+    (void)key;
+    while (*i < j->count && j->finding[*i].level != LIMIT_STOP) ++*i;
+    if (*i >= j->count) return NULL;
+    const finding *f = &j->finding[*i];
+    snprintf(space, RECORD_SPACE, "%s%s%s", limit_default[f->limit].name, *f->where ? ", " : "", f->where);
+    return space;
+}
+
+static const record_row remedy_row[] = {
+    ROW(remedy, found, "found", NULL, "there is one"),
+    ROW_LIST(next_change, &change_table, "changes", "of the plan, all together; judged again, nothing stops it then"),
+    ROW_TEXTS(next_stop, "contradict", "where none is found: limits that stop the moves that come nearest"),
+};
+static const record_table remedy_table = {.title = "The nearest plan of the same pieces that nothing stops",
+                                          RECORD_ROWS(remedy_row)};
+
+static const void *sought_remedy(const void *of, void *space)
+{
+    const plan_audit *a = ((const judgement_record *)of)->audit;
+    (void)space;
+    return a->remedy.sought ? &a->remedy : NULL;
+}
+
 static const record_row plan_audit_row[] = {
     JUDGEMENT_ROWS,
     ROW(judgement_record, case_name, "case", NULL, "name of the case"),
     ROW(judgement_record, plan, "plan", NULL, "name of the plan"),
     ROW(judgement_record, feasible, "feasible", NULL, "nothing stops it, or it says why"),
+    {.kind = RECORD_OBJECT,
+     .at = sought_remedy,
+     .table = &remedy_table,
+     .or_null = true,
+     .name = "remedy",
+     .help = "the nearest plan of the same pieces that nothing stops; null: nothing stops this one"},
 };
 const record_table plan_audit_table = {
     .kind = "plan_audit", .title = "Record of gnathos audit --plan, audit.json", RECORD_ROWS(plan_audit_row)};

@@ -11,7 +11,7 @@ typedef struct judgement_record {
     const char *override;
     const judgement *judgement;
     const case_file *patient;
-    const plan_audit *audit;      /* where there are remedies; NULL */
+    const plan_audit *audit;      /* of a plan's audit; NULL */
     const char *case_name, *plan; /* of a plan's audit */
     bool feasible;
 } judgement_record;

@@ -7,10 +7,10 @@ typedef struct plan_audit {
     const case_file *patient;
     const plan_file *plan;
     judgement judgement;
-    char remedy[FINDINGS_MAX][REMEDY_TEXT_SIZE]; /* "" where there is none or none is needed */
+    remedy remedy;
 } plan_audit;
 
-/* Judges, and looks for a remedy of every stop and of every caution that depends on the plan. */
+/* Judges, and looks for a remedy of a plan that is stopped. */
 void plan_audit_make(const judge *j, const case_file *c, const prepared *p, const plan_file *plan,
                      const plan_moves *moves, plan_audit *out);
 /* A stop without an override. */

@@ -1,160 +1,290 @@
 #include "app/planner/judge/remedy.h"
-#include "app/planner/judge/parts.h"
+#include "app/planner/judge/nearest_move.h"
 #include "app/planner/plan/plan_vary.h"
+#include "geometry/mem.h"
+#include "geometry/parallel.h"
 #include <assert.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-static const double fine_step = 0.05, first_step = 0.5, stride = 3, reach_mm = 4.5;
+enum { STEPS_MAX = 20, HALVINGS = 6, KEPT_MAX = 512, ROWS_MAX = KEPT_MAX + FINDINGS_MAX };
+static const double probe = 0.2;                 /* mm or degrees, to see how a margin changes */
+static const double first_reach = 4, calm = 0.8; /* of a step, along each axis; less from step to step */
+static const double clear = 0.03;                /* kept from every limit, so that rounding stays inside */
+static const double least_slope = 1e-3, settled = 0.01;
 
-typedef struct change { /* along an axis of the head, there or back; a turn is only made less */
+_Static_assert((int)CONTROL_PIECE_MAX <= (int)MOVE_AXES_MAX, "every control has an axis");
+
+typedef struct freedom { /* of one control; how much it may change */
+    int control;         /* number of control_of_piece */
     segment_id segment;
     rig_axis axis;
-    bool back;
-} change;
+    double low, high;
+} freedom;
 
-/* The most that this change can be; 0: it cannot. */
-static double most(const plan_file *p, change c)
-{
-    segment_move m = p->segment[c.segment].move;
-    if (m.kind == MOVE_NONE) return 0;
-    if (c.axis < RIG_PITCH) return reach_mm;
-    return m.kind == MOVE_ANGLES ? fabs(*rig_angle(&m, c.axis)) : 0;
-}
-
-static void apply(plan_file *p, const head_frame *f, change c, double by)
-{
-    segment_move *m = &p->segment[c.segment].move;
-    bool turn = c.axis >= RIG_PITCH, back = turn ? *rig_angle(m, c.axis) > 0 : c.back;
-    rig_move(m, c.axis, back ? -by : by, f);
-}
-
-typedef void (*judge_part)(const judge *, const plan_moves *, judgement *);
-
-/* All that a plan changes, from cheap to dear. */
-static const judge_part parts[] = {judge_moves,    judge_bite,  judge_places, judge_nerve,
-                                   judge_contacts, judge_pairs, judge_teeth,  judge_trims};
-enum { PARTS = sizeof parts / sizeof *parts };
-
-typedef struct trial {
+typedef struct search {
     const judge *j;
     const case_file *c;
     const prepared *p;
-    plan_file plan;
-    const judgement *now;
-    int which;
-    judge_part first; /* the part that the finding is of */
-} trial;
+    plan_file wanted; /* opened */
+    int axes;
+    freedom free[CONTROL_PIECE_MAX];
+    const double *x;        /* of the probes */
+    judgement *here, *near; /* [1], [axes]: at x and a probe away along each axis */
+    int rows;
+    move_limit *row; /* [ROWS_MAX] the limits as straight ones: of the turns, then of each place that was stopped */
+} search;
 
-static const finding *counterpart(const judgement *now, const finding *f)
+static void find_freedoms(search *s)
 {
-    const finding *was = now->finding;
-    while (was->limit != f->limit || strcmp(was->where, f->where) != 0) was++;
-    return was;
+    for (int i = 0; i < CONTROL_PIECE_MAX; i++) {
+        control one;
+        control_of_piece(i, &one);
+        segment_move m = s->wanted.segment[one.segment].move;
+        freedom f = {i, one.segment, one.axis, -HUGE_VAL, HUGE_VAL};
+        if (m.kind == MOVE_NONE) continue;
+        if (one.axis >= RIG_PITCH) {
+            double turn = m.kind == MOVE_ANGLES ? *rig_angle(&m, one.axis) : 0;
+            if (turn == 0) continue;
+            f.low = fmin(-turn, 0);
+            f.high = fmax(-turn, 0);
+        }
+        s->free[s->axes++] = f;
+    }
 }
 
-/* Nothing that this part judges is worse than now, and the finding, if it is one of them, is better by a level. */
-static bool allows(const trial *t, judge_part part, const plan_moves *m)
+static plan_file changed(const search *s, const double x[])
 {
-    judgement then = {.reason = -1};
-    part(t->j, m, &then);
-    for (int i = 0; i < then.count; i++) {
-        const finding *f = &then.finding[i], *was = counterpart(t->now, f);
-        if (f->level > was->level) return false;
-        if (was != &t->now->finding[t->which]) continue;
-        if (f->level == was->level || f->level == LIMIT_NOT_JUDGED) return false;
+    plan_file p = s->wanted;
+    for (int k = 0; k < s->axes; k++)
+        if (x[k] != 0) rig_move(&p.segment[s->free[k].segment].move, s->free[k].axis, x[k], &s->p->frame);
+    return p;
+}
+
+static void judge_at(const search *s, const double x[], judgement *out)
+{
+    const plan_file p = changed(s, x);
+    plan_moves m;
+    issue_list none = {0};
+    bool made = plan_moves_set(&p, s->c, &s->p->points, &m, &none);
+    assert(made); /* the wanted plan was, and it names the same landmarks */
+    issue_list_free(&none);
+    if (made) judge_plan(s->j, &m, out);
+}
+
+static double probe_along(const freedom *f, double x) { return x + probe > f->high ? -probe : probe; }
+
+static void judge_probes(int64_t begin, int64_t end, void *context)
+{
+    const search *s = context;
+    for (int64_t k = begin; k < end; k++) {
+        double x[CONTROL_PIECE_MAX];
+        if (k == s->axes) {
+            judge_at(s, s->x, s->here);
+            continue;
+        }
+        memcpy(x, s->x, sizeof *x * (size_t)s->axes);
+        x[k] += probe_along(&s->free[k], x[k]);
+        judge_at(s, x, &s->near[k]);
     }
+}
+
+/* A limit that can stop this plan, and how far it is from doing so. */
+static bool binds(const finding *f)
+{
+    return f->level != LIMIT_NOT_JUDGED && !f->estimated && isfinite(f->margin) &&
+           (f->margin >= 0 || f->level == LIMIT_STOP);
+}
+
+/* Finding i about x as a straight limit; false: no change of the plan changes it here. */
+static bool straight(const search *s, const double x[], int i, move_limit *out)
+{
+    const finding *f = &s->here->finding[i];
+    double square = 0, at = 0;
+    if (!binds(f)) return false;
+    *out = (move_limit){0};
+    for (int k = 0; k < s->axes; k++) {
+        const finding *g = &s->near[k].finding[i];
+        if (binds(g)) out->towards[k] = (g->margin - f->margin) / probe_along(&s->free[k], x[k]);
+        square += out->towards[k] * out->towards[k];
+    }
+    const double slope = sqrt(square);
+    if (slope < least_slope) return false;
+    for (int k = 0; k < s->axes; k++) {
+        out->towards[k] /= slope;
+        at += out->towards[k] * x[k];
+    }
+    out->least = at - f->margin / slope + clear;
     return true;
 }
 
-/* Which part the finding comes from. */
-static judge_part part_of(const judge *j, const plan_moves *m, const judgement *now, int which)
+/* Adds the limits about x; returns how many there are. What stops here stays for the steps to come: a depth is the
+ * largest of many, and moving out of one cusp's way into another's would never end. */
+static int add_limits(search *s, const double x[])
 {
-    for (int k = 0;; k++) {
-        judgement some = {.reason = -1};
-        assert(k < PARTS);
-        parts[k](j, m, &some);
-        for (int i = 0; i < some.count; i++)
-            if (counterpart(now, &some.finding[i]) == &now->finding[which]) return parts[k];
+    int rows = s->rows;
+    for (int kept = 1; kept >= 0; kept--) {
+        for (int i = 0; i < s->here->count && rows < ROWS_MAX; i++)
+            rows += (s->here->finding[i].level == LIMIT_STOP) == kept && straight(s, x, i, &s->row[rows]);
+        if (kept) s->rows = rows < KEPT_MAX ? rows : KEPT_MAX;
+    }
+    return rows;
+}
+
+/* A turn only becomes less. */
+static void add_turns(search *s)
+{
+    for (int k = 0; k < s->axes; k++) {
+        const freedom *f = &s->free[k];
+        if (!isfinite(f->low)) continue;
+        s->row[s->rows] = (move_limit){.least = f->low};
+        s->row[s->rows++].towards[k] = 1;
+        s->row[s->rows] = (move_limit){.least = -f->high};
+        s->row[s->rows++].towards[k] = -1;
     }
 }
 
-/* The limit is better by a level, and nothing is worse. Most changes fail at the limit itself, which is asked first. */
-static bool helps(const trial *t, change c, double by)
+static double length_of(const double x[], int axes)
 {
-    plan_file plan = t->plan;
-    plan_moves m;
-    issue_list ignored = {0};
-    apply(&plan, &t->p->frame, c, by);
-    bool ok = plan_moves_set(&plan, t->c, &t->p->points, &m, &ignored);
-    issue_list_free(&ignored);
-    ok = ok && allows(t, t->first, &m);
-    for (int k = 0; ok && k < PARTS; k++) ok = parts[k] == t->first || allows(t, parts[k], &m);
-    return ok;
+    double square = 0;
+    for (int k = 0; k < axes; k++) square += x[k] * x[k];
+    return sqrt(square);
 }
 
-/* The least amount that helps, HUGE_VAL if none does; not looked for beyond `limit_by`. */
-static double least(const trial *t, change c, double limit_by)
+/* From x towards the nearest place that has all limits; the largest part of the step. */
+static double step(search *s, double x[], double reach)
 {
-    double high = first_step, low = 0, end = fmin(most(&t->plan, c), limit_by);
-    if (!(end > 0)) return HUGE_VAL;
-    for (; !helps(t, c, fmin(high, end)); high *= stride) {
-        if (high >= end) return HUGE_VAL;
-        low = high;
+    double to[CONTROL_PIECE_MAX], largest = 0;
+    nearest_move(s->row, add_limits(s, x), s->axes, to);
+    for (int k = 0; k < s->axes; k++) {
+        to[k] = fmin(fmax(to[k], s->free[k].low), s->free[k].high);
+        largest = fmax(largest, fabs(to[k] - x[k]));
     }
-    high = fmin(high, end);
-    while (high - low > fine_step) {
-        double middle = (low + high) / 2;
-        if (helps(t, c, middle))
+    const double part = largest > reach ? reach / largest : 1;
+    for (int k = 0; k < s->axes; k++) x[k] += part * (to[k] - x[k]);
+    return part * largest;
+}
+
+/* x, or less of it, in whole steps of `grid`: of the controls' values, or away from what is wanted. */
+static void rounded(const search *s, const double x[], double part, double grid, bool away, double out[])
+{
+    for (int k = 0; k < s->axes; k++) {
+        const freedom *f = &s->free[k];
+        double steps = part * x[k] / grid;
+        out[k] = grid * (away ? copysign(ceil(fabs(steps) - 0.1), steps) : round(steps));
+        out[k] = fmin(fmax(out[k], f->low), f->high);
+    }
+}
+
+/* The first of the rounded ones, from coarse to fine, that nothing stops. */
+static bool round_off(const search *s, const double x[], double part, double out[], judgement *after)
+{
+    static const double grid[] = {0.1, 0.05, 0.01};
+    for (int i = 0; i < 6; i++) {
+        rounded(s, x, part, grid[i / 2], i % 2, out);
+        judge_at(s, out, after);
+        if (after->worst < LIMIT_STOP) return true;
+    }
+    return false;
+}
+
+/* Leaves out the changes that are not needed. */
+static void leave_out(const search *s, double x[], judgement *after)
+{
+    judgement *less = NEW_ARRAY(judgement, 1);
+    for (int k = 0; k < s->axes; k++) {
+        const double was = x[k];
+        if (was == 0) continue;
+        x[k] = 0;
+        judge_at(s, x, less);
+        if (less->worst < LIMIT_STOP)
+            *after = *less;
+        else
+            x[k] = was;
+    }
+    free(less);
+}
+
+/* The least part of x that nothing stops, rounded; false if rounding meets a limit at any. */
+static bool finish(const search *s, const double x[], double out[], judgement *after)
+{
+    double low = 0, high = 1, less[CONTROL_PIECE_MAX];
+    for (int i = 0; i < HALVINGS; i++) {
+        const double middle = (low + high) / 2;
+        for (int k = 0; k < s->axes; k++) less[k] = middle * x[k];
+        judge_at(s, less, after);
+        if (after->worst < LIMIT_STOP)
             high = middle;
         else
             low = middle;
     }
-    return high;
+    if (!round_off(s, x, high, out, after) && !round_off(s, x, 1, out, after)) return false;
+    leave_out(s, out, after);
+    return true;
 }
 
-/* Moving the segment can change the finding: it is of it, or of what it carries. */
-static bool concerns(const finding *f, segment_id s)
+/* The nearest x that nothing stops; false: none was seen, and the judgement is of the last. */
+static bool look(search *s, double best[], judgement *last)
 {
-    bool any = f->segment_a < 0 && f->segment_b < 0;
-    return any || f->segment_a == (int)s || f->segment_b == (int)s ||
-           (s == SEGMENT_DISTAL && (f->segment_a == SEGMENT_CHIN || f->segment_b == SEGMENT_CHIN));
-}
-
-static void say(change c, double by, char text[REMEDY_TEXT_SIZE])
-{
-    static const char *const how[RIG_AXES][2] = {[RIG_FORWARD] = {"mm forwards", "mm back"},
-                                                 [RIG_UP] = {"mm up", "mm down"},
-                                                 [RIG_LEFT] = {"mm to the left", "mm to the right"},
-                                                 [RIG_PITCH] = {NULL, "deg less pitch"},
-                                                 [RIG_YAW] = {NULL, "deg less yaw"},
-                                                 [RIG_ROLL] = {NULL, "deg less roll"}};
-    snprintf(text, REMEDY_TEXT_SIZE, "%s %.2f %s", control_piece_name(c.segment), by, how[c.axis][c.back]);
-}
-
-bool remedy_find(const judge *j, const case_file *c, const prepared *p, const plan_file *plan, const judgement *now,
-                 int which, char text[REMEDY_TEXT_SIZE])
-{
-    trial t = {.j = j, .c = c, .p = p, .plan = *plan, .now = now, .which = which};
-    double best = HUGE_VAL;
-    plan_moves m;
-    issue_list ignored = {0};
-    text[0] = 0;
-    plan_vary_open(&t.plan, &p->frame);
-    bool made = plan_moves_set(&t.plan, c, &p->points, &m, &ignored);
-    issue_list_free(&ignored);
-    if (!made) return false;
-    t.first = part_of(j, &m, now, which);
-    for (int s = SEGMENT_MAXILLA; s < SEGMENT_COUNT; s++) {
-        if (!concerns(&now->finding[which], (segment_id)s)) continue;
-        for (int k = 0; k < 2 * RIG_AXES; k++) {
-            change one = {(segment_id)s, (rig_axis)(k / 2), k % 2};
-            if (one.axis >= RIG_PITCH && !one.back) continue;
-            double by = least(&t, one, best - fine_step);
-            if (by >= best) continue;
-            best = by;
-            say(one, by, text);
+    double x[CONTROL_PIECE_MAX] = {0}, reach = first_reach;
+    bool found = false;
+    s->near = NEW_ARRAY(judgement, s->axes + 1);
+    s->here = &s->near[s->axes];
+    s->x = x;
+    s->row = NEW_ARRAY(move_limit, ROWS_MAX);
+    add_turns(s);
+    for (int i = 0; i < STEPS_MAX; i++, reach *= calm) {
+        parallel_for(s->axes + 1, 1, judge_probes, s);
+        *last = *s->here;
+        if (last->worst < LIMIT_STOP && (!found || length_of(x, s->axes) < length_of(best, s->axes))) {
+            memcpy(best, x, sizeof x);
+            found = true;
         }
+        if (step(s, x, reach) < settled) break;
     }
-    return best < HUGE_VAL;
+    free(s->row);
+    free(s->near);
+    return found;
+}
+
+static void tell(const search *s, const double x[], remedy *out)
+{
+    out->plan = changed(s, x);
+    *out->plan.override = 0;
+    for (int k = 0; k < s->axes; k++) {
+        const freedom *f = &s->free[k];
+        const segment_move *m = &s->wanted.segment[f->segment].move;
+        remedy_change *r = &out->change[out->change_count];
+        control one;
+        if (x[k] == 0) continue;
+        control_of_piece(f->control, &one);
+        double wanted = m->kind == MOVE_RIGID ? (double)NAN : rig_moved(m, f->axis, &s->p->frame);
+        *r = (remedy_change){.unit = one.unit, .by = x[k], .wanted = wanted, .proposed = wanted + x[k]};
+        memcpy(r->control, one.name, sizeof r->control);
+        out->change_count++;
+    }
+}
+
+void remedy_find(const judge *j, const case_file *c, const prepared *p, const plan_file *plan, const judgement *now,
+                 remedy *out)
+{
+    double x[CONTROL_PIECE_MAX], best[CONTROL_PIECE_MAX] = {0};
+    *out = (remedy){.sought = now->worst == LIMIT_STOP, .after = *now};
+    if (!out->sought) return;
+    search *s = NEW_ARRAY(search, 1);
+    judgement *after = NEW_ARRAY(judgement, 1);
+    s->j = j;
+    s->c = c;
+    s->p = p;
+    s->wanted = *plan;
+    plan_vary_open(&s->wanted, &p->frame);
+    find_freedoms(s);
+    out->found = s->axes && look(s, best, &out->after) && finish(s, best, x, after);
+    if (out->found) {
+        out->after = *after;
+        tell(s, x, out);
+    }
+    free(after);
+    free(s);
 }
