@@ -65,6 +65,7 @@ static void print_ratios(const outcome *o)
 void outcome_print(const outcome *o)
 {
     const equilibrium *q = o->solve;
+    judgement_print_headline(o->limits, o->patient);
     printf("%s: %s in %d iterations; residual %.1e of the initial one; smallest J %.2f, %d inverted tets, "
            "largest stretch "
            "%.2f\n",

@@ -53,11 +53,23 @@ static void print_remedy(const remedy *r)
     }
 }
 
+void judgement_print_headline(const judgement *j, const case_file *c)
+{
+    const finding *f = j->reason >= 0 ? &j->finding[j->reason] : NULL;
+    char stop[LIMIT_WORDS_SIZE];
+    if (!f || (f->level != LIMIT_STOP && !f->leads)) return;
+    printf("%s: %s%s%s is %.4g", limit_level_name(f->level), limit_default[f->limit].name, *f->where ? ", " : "",
+           f->where, f->value);
+    if (f->level == LIMIT_STOP) printf(", must be %s", limit_range_words(c->limits[f->limit].stop, stop));
+    printf("%s%s\n\n", f->note ? ": " : "", f->note ? f->note : "");
+}
+
 void plan_audit_print(const plan_audit *a)
 {
     const judgement *j = &a->judgement;
     int count[4] = {0};
     for (int i = 0; i < j->count; i++) count[j->finding[i].level]++;
+    judgement_print_headline(j, a->patient);
     printf("plan %s on %s: %d stop, %d caution, %d fine, %d not judged\n\n", a->plan->name, a->patient->name,
            count[LIMIT_STOP], count[LIMIT_CAUTION], count[LIMIT_FINE], count[LIMIT_NOT_JUDGED]);
     printf("%-10s %-56s %8s  %-14s %-14s %8s\n", "level", "limit", "value", "fine", "stop outside", "margin");

@@ -12,12 +12,35 @@ function range([low, high]) {
 
 const level = name => ({ text: name, class: `level ${name.split(" ")[0]}` });
 
-function planAudit(audit) {
+/** All that the prediction found, and what an audit of the plan found besides or otherwise: nothing hides the other. */
+function findings(own, audit) {
+    const alike = (a, b) => ["limit", "where", "level", "value"].every(key => a[key] === b[key]);
+    const other = (audit ?? []).filter(a => !own.some(o => alike(a, o)));
+    return [...own, ...other.map(a => ({ ...a, where: [a.where, "by the audit"].filter(Boolean).join(", ") }))];
+}
+
+/** One plan for all limits together, or what contradicts. */
+function remedy(r) {
+    if (!r) return null;
+    const change = c =>
+        typeof c.wanted === "number"
+            ? `${c.control} ${digits(c.wanted)} → ${digits(c.proposed)} ${c.unit}`
+            : `${c.control} by ${digits(c.by)} ${c.unit}`;
+    const text = r.found
+        ? `The nearest plan found that nothing stops, all changes together: ${r.changes.map(change).join("; ")}.`
+        : `No change of the pieces that the plan moves was found that brings all limits together; these contradict: ${r.contradict.join("; ")}.`;
+    return make("p", { class: "note remedy" }, text);
+}
+
+function planAudit(limits, audit) {
     const order = ["stop", "caution", "not judged"];
-    const told = audit.limits
+    const all = findings(limits.limits, audit?.limits);
+    const worst = ["stop", "caution", "fine"].find(l => all.some(f => f.level === l));
+    const first = all.find(f => f.limit === limits.decides && f.level === limits.worst && f.level !== "fine");
+    const told = all
         .filter(l => order.includes(l.level))
         .sort((a, b) => order.indexOf(a.level) - order.indexOf(b.level));
-    const fine = [...new Set(audit.limits.filter(l => l.level === "fine").map(l => l.what))];
+    const fine = [...new Set(all.filter(l => l.level === "fine").map(l => l.what))];
     const unit = l => ({ deg: "°", mm2: " mm²", mm3: " mm³", "": "" })[l.unit ?? ""] ?? ` ${l.unit}`;
     const rows = told.map(l => [
         level(l.level),
@@ -29,20 +52,27 @@ function planAudit(audit) {
         },
         range(l.fine),
         range(l.stop),
-        l.remedy ?? l.note ?? "",
+        l.note ?? "",
     ]);
     const verdict =
-        audit.feasible === false
+        audit?.feasible === false
             ? "Not feasible as it stands"
             : ({ stop: "Stopped, and accepted by an override", caution: "Feasible, with caution", fine: "Feasible" }[
-                  audit.worst
-              ] ?? audit.worst);
+                  worst
+              ] ?? limits.worst);
     return [
         make(
             "p",
             { class: "lead" },
-            `${verdict}: ${audit.limits.length} limits judged, ${told.length} of them not fine.`,
+            `${verdict}: ${all.length} limits judged, ${told.length} of them not fine.`,
         ),
+        first
+            ? make(
+                  "p",
+                  { class: "lead" },
+                  `First ${first.level}: ${[first.what, first.where].filter(Boolean).join(", ")}: ${digits(first.value)}${unit(first)}${first.note ? ` (${first.note})` : ""}.`,
+              )
+            : null,
         rows.length
             ? table(
                   "Limits that are not fine (≈ estimated)",
@@ -52,12 +82,13 @@ function planAudit(audit) {
                       { text: "is", class: "number" },
                       "fine",
                       "stops outside",
-                      "nearest change that helps",
+                      "to know",
                   ],
                   rows,
                   { class: "limits" },
               )
             : null,
+        remedy(audit?.remedy),
         fine.length ? make("p", { class: "note" }, `Fine: ${fine.join("; ")}.`) : null,
     ];
 }
@@ -126,8 +157,8 @@ function caseAudit(audit, outcome) {
     ];
 }
 
-/** audit: what gnathos audit wrote, of the plan (as outcome.limits, with remedies) or of the case; or null. */
+/** audit: what gnathos audit wrote, of the plan or of the case; or null. */
 export const feasibility = (outcome, audit) => [
-    ...planAudit(audit?.bounds ? outcome.limits : (audit ?? outcome.limits)),
+    ...planAudit(outcome.limits, audit?.bounds ? null : audit),
     ...(audit?.bounds ? caseAudit(audit, outcome) : []),
 ];

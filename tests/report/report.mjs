@@ -171,7 +171,24 @@ async function tablesHoldTheOutcome(b) {
         if (Math.abs(m.anterior_mm) < 0.05) return;
         assert.ok(moves[i][3].endsWith(m.anterior_mm > 0 ? " anterior" : " posterior"), `${m.segment}: ${moves[i][3]}`);
     });
+    const limits = cells.filter(r => r.length === 6 && ["stop", "caution", "not judged"].includes(r[0]));
+    const named = l => [l.what, l.where].filter(Boolean).join(", ");
+    const alarming = outcome.limits.limits.filter(l => l.level !== "fine");
+    assert.ok(alarming.length > 0);
+    for (const l of alarming) // an audit beside it hides nothing of the prediction
+        assert.ok(
+            limits.some(r => r[0] === l.level && r[1] === named(l)),
+            `no row of ${named(l)}`,
+        );
+    const audit = JSON.parse(readFileSync(join(folder, "out/audit.json"), "utf8"));
+    assert.ok(
+        limits.some(r => r[0] === "stop" && r[1] === `${named(audit.limits[0])}, by the audit` && r[2] === "8.25 mm"),
+        "nor the other way round",
+    );
     const text = await b.evaluate("document.body.innerText");
+    assert.ok(text.includes("Not feasible as it stands") && text.includes("maxilla_advance_mm 8.25 → 8.00 mm"));
+    const first = outcome.limits.limits.find(l => l.limit === outcome.limits.decides);
+    assert.ok(text.includes(`First ${outcome.limits.worst}: ${named(first)}: `), "what decides leads");
     for (const said of [
         outcome.trust,
         outcome.case_hash,

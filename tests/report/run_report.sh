@@ -7,11 +7,22 @@ gnathos=$1 node=$2 out=$3 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -R "$out" "$work/out"
+# an audit of the plan, which judges no tissue, found one limit otherwise and a remedy
+"$node" -e '
+const fs = require("fs"), out = process.argv[1], o = JSON.parse(fs.readFileSync(out + "/outcome.json", "utf8"));
+const { gnathos, version, case: name } = o, tissue = ["solved", "smallest_j", "largest_stretch", "incisor_show_mm", "lower_face_share"];
+const limits = o.limits.limits.filter(l => !tissue.includes(l.limit));
+limits[0] = { ...limits[0], level: "stop", value: 8.25 };
+const change = { control: "maxilla_advance_mm", unit: "mm", by: -0.25, wanted: 8.25, proposed: 8 };
+fs.writeFileSync(out + "/audit.json", JSON.stringify({ gnathos, kind: "plan_audit", version, worst: "stop", override: "",
+    limits, case: name, plan: o.plan.name, feasible: false, remedy: { found: true, changes: [change], contradict: [] } }));
+' "$work/out"
 "$gnathos" report "$work/out" -o "$work/report.html"
 "$gnathos" report "$work/out" -o "$work/again.html" --no-pictures -q
 "$gnathos" report "$work/out" -o "$work/again2.html" --no-pictures -q -j 1
 cmp "$work/again.html" "$work/again2.html" || { echo "the same outcome gave another page"; exit 1; }
 cp -R "$work/out" "$work/hostile"
+rm "$work/hostile/audit.json"
 "$node" -e '
 const fs = require("fs"), path = process.argv[1], o = JSON.parse(fs.readFileSync(path, "utf8"));
 o.case = "</script><img src=x onerror=alert(1)> Mustermann";
