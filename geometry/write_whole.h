@@ -38,8 +38,8 @@ bool whole_folder_open_over(const char *path, whole_folder *out, err *e) MUST_CH
 bool whole_folder_close(whole_folder *w, err *e) MUST_CHECK;
 void whole_folder_abandon(whole_folder *w); /* removes the temporary folder and all in it; idempotent */
 
-/* Removes the temporary folders of this process. For a process about to end: allocates nothing, may be called from a
- * signal handler. */
+/* Removes the temporary files and folders of this process. For a process about to end: allocates nothing, may be called
+ * from a signal handler. */
 void whole_folder_abandon_all(void);
 
 #ifdef __cplusplus

@@ -86,8 +86,22 @@ void command_print_issues(const command_options *o, const issue_list *issues)
                     issue_level_name((issue_level)l));
 }
 
+static char step_now[64] = "start"; /* read by a process about to end, whichever thread is the one */
+
+void command_step(const char *step) { snprintf(step_now, sizeof step_now, "%s", step); }
+
+void command_out_of_memory(size_t bytes)
+{
+    char text[160];
+    int n = snprintf(text, sizeof text, "gnathos: %s: out of memory (%zu bytes cannot be had)\n", step_now, bytes);
+    (void)!write(STDERR_FILENO, text, (size_t)n);
+    whole_folder_abandon_all();
+    _exit(ERR_RESOURCE);
+}
+
 void command_progress_at(const command_options *o, const char *stage, double fraction)
 {
+    command_step(stage);
     bool line = o->progress == PROGRESS_PLAIN || (o->progress == PROGRESS_AUTO && !o->quiet && isatty(2));
     if (o->progress == PROGRESS_JSON) {
         json_t *p = json_pack("{s:s}", "stage", stage);

@@ -28,6 +28,12 @@ task command_task(const command_options *o);
 /* On stderr: a line where it is a terminal or --progress=plain, a JSON line with --progress=json. fraction < 0:
  * not known. */
 void command_progress_at(const command_options *o, const char *stage, double fraction);
+/* What is being done from here on, for the message of a process that runs out of memory; each stage of progress is a
+ * step too. */
+void command_step(const char *step);
+/* Ends the process with that message and ERR_RESOURCE; nothing half done stays. Allocates nothing; any thread may call.
+ */
+_Noreturn void command_out_of_memory(size_t bytes);
 /* Prints a record, as json_file_write puts it into a file, and frees it. */
 void command_print_record(json_t *record);
 

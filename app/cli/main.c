@@ -98,6 +98,7 @@ static int dispatch(int argc, char **argv)
         char name[64];
         snprintf(name, sizeof name, "gnathos %s", word);
         argv[1] = name;
+        command_step(word);
         return verb_run(verbs[i].verb, argc - 1, argv + 1);
     }
     return unknown_verb(word);

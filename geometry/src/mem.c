@@ -1,4 +1,5 @@
 #include "geometry/mem.h"
+#include "geometry/write_whole.h"
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +8,8 @@
 static void out_of_memory(size_t count, size_t size)
 {
     fprintf(stderr, "gnathos: out of memory (%zu x %zu bytes)\n", count, size);
-    exit(7);
+    whole_folder_abandon_all();
+    exit(ERR_RESOURCE);
 }
 
 void *mem_alloc(size_t count, size_t size)

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <ftw.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,17 +88,19 @@ long temporary_sweep(const char *path, const char *own)
 
 /* ---- at a sudden end: nothing here may allocate or wait ---- */
 
-enum { REMEMBERED = 8, NAME_SIZE = 4096 };
+enum { REMEMBERED = 16, NAME_SIZE = 4096 };
 static struct {
-    volatile long process; /* 0: free; a forked child has another number and leaves the folder alone */
+    atomic_flag taken;
+    volatile long process; /* 0: not whole yet; a forked child has another number and leaves the name alone */
     int descriptor;
     char name[NAME_SIZE];
 } remembered[REMEMBERED];
 
 void temporary_remember(int descriptor, const char *name)
 {
+    if (strlen(name) >= NAME_SIZE) return;
     for (int i = 0; i < REMEMBERED; i++) {
-        if (remembered[i].process || strlen(name) >= NAME_SIZE) continue;
+        if (atomic_flag_test_and_set(&remembered[i].taken)) continue;
         remembered[i].descriptor = descriptor;
         strcpy(remembered[i].name, name);
         remembered[i].process = (long)getpid();
@@ -107,8 +110,11 @@ void temporary_remember(int descriptor, const char *name)
 
 void temporary_forget(int descriptor)
 {
-    for (int i = 0; i < REMEMBERED; i++)
-        if (remembered[i].process && remembered[i].descriptor == descriptor) remembered[i].process = 0;
+    for (int i = 0; i < REMEMBERED; i++) {
+        if (!remembered[i].process || remembered[i].descriptor != descriptor) continue;
+        remembered[i].process = 0;
+        atomic_flag_clear(&remembered[i].taken);
+    }
 }
 
 struct listed { /* as the kernel gives it */
@@ -137,11 +143,16 @@ static void empty_folder(int folder, int depth)
         }
 }
 
+/* Once folders are exchanged the name is that of the earlier results: what bears the name goes, not what the descriptor
+ * was opened on. */
 void whole_folder_abandon_all(void)
 {
     for (int i = 0; i < REMEMBERED; i++) {
-        if (remembered[i].process != (long)getpid()) continue;
-        empty_folder(remembered[i].descriptor, 4);
+        if (remembered[i].process != (long)getpid() || !unlink(remembered[i].name)) continue;
+        int folder = open(remembered[i].name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (folder < 0) continue;
+        empty_folder(folder, 4);
+        close(folder);
         rmdir(remembered[i].name);
     }
 }

@@ -11,6 +11,6 @@ void temporary_lock(int descriptor);
  * not looked at (NULL: all are). */
 long temporary_sweep(const char *path, const char *own);
 void temporary_remove(const char *name); /* a file, or a folder with all in it */
-/* Folders that temporary_abandon_all removes, by a descriptor of theirs. */
+/* Names that whole_folder_abandon_all removes, by a descriptor of theirs. Any thread may call. */
 void temporary_remember(int descriptor, const char *name);
 void temporary_forget(int descriptor);

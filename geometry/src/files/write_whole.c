@@ -41,13 +41,17 @@ bool whole_file_open(const char *path, whole_file *out, err *e)
         return false;
     }
     temporary_lock(fd);
+    temporary_remember(fd, temporary);
     *out = (whole_file){.stream = stream, .path = mem_text(path), .temporary = temporary};
     return true;
 }
 
 void whole_file_abandon(whole_file *w)
 {
-    if (w->stream) fclose(w->stream);
+    if (w->stream) {
+        temporary_forget(fileno(w->stream));
+        fclose(w->stream);
+    }
     if (w->temporary) unlink(w->temporary);
     free(w->path);
     free(w->temporary);
@@ -58,6 +62,7 @@ bool whole_file_close(whole_file *w, err *e)
 {
     bool good = !fflush(w->stream) && !ferror(w->stream) && !fsync(fileno(w->stream));
     int number = good ? 0 : errno ? errno : EIO;
+    temporary_forget(fileno(w->stream));
     if (fclose(w->stream) && good) {
         good = false;
         number = errno;
