@@ -77,13 +77,16 @@ typedef struct cut_report {
     cut_plane *plane; /* the planes that were used, for display */
     char (*warning)[256];
     double volume_mm3[SEGMENT_COUNT], kerf_mm3;
+    int32_t handles[SEGMENT_COUNT]; /* genus of each segment (geometry/handles.h) */
 } cut_report;
 
 void cut_report_free(cut_report *r);
 
-/* Cuts. Without Le Fort I the skull is the cranium; without BSSO the mandible is the distal segment. The
- * caller frees *out and *report (report may be NULL). Refuses: a missing bone or landmark, all names at once
- * (ERR_INPUT); open or self-crossing bone, a cut that misses it, a balance error above 0.1 % (ERR_GEOMETRY).
+/* Cuts. A split that comes out of the lateral plate is laid anew further inside and says so; a window that a cut of the
+ * mandible leaves is a warning with its place. Without Le Fort I the skull is the cranium; without BSSO the mandible is
+ * the distal segment. The caller frees *out and *report (report may be NULL). Refuses: a missing bone or landmark, all
+ * names at once (ERR_INPUT); open or self-crossing bone, a cut that misses it, a balance error above 0.1 %
+ * (ERR_GEOMETRY).
  */
 bool osteotomy_cut(const osteotomy_input *in, const osteotomy_params *p, segments *out, cut_report *report,
                    err *e) MUST_CHECK;

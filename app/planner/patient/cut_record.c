@@ -53,6 +53,16 @@ static const void *next_volume(const void *of, int *i, const char **key, void *s
     return &r->volume_mm3[*i];
 }
 
+static const void *next_handles(const void *of, int *i, const char **key, void *space)
+{
+    const cut_report *r = of;
+    (void)space;
+    while (*i < SEGMENT_COUNT && !(r->volume_mm3[*i] > 0)) ++*i;
+    if (*i == SEGMENT_COUNT) return NULL;
+    *key = segment_name((segment_id)*i);
+    return &r->handles[*i];
+}
+
 static const void *next_warning(const void *of, int *i, const char **key, void *space)
 {
     const cut_report *r = of;
@@ -62,6 +72,8 @@ static const void *next_warning(const void *of, int *i, const char **key, void *
 
 static const record_row cuts_row[] = {
     ROW_MAP(next_volume, "segment", NUMBER, NULL, "segment_mm3", "mm3", "volume of each segment"),
+    ROW_MAP(next_handles, "segment", COUNT, NULL, "segment_handles", NULL,
+            "genus of each segment: how often it is pierced through"),
     ROW(cut_report, kerf_mm3, "kerf_mm3", "mm3", "volume of the bone that the saw removes"),
     ROW_ARRAY(cut_report, balance, balance_count, &balance_table, "balance", "volumes of each cut"),
     ROW_ARRAY(cut_report, clearance, clearance_count, &clearance_table, "clearance", "how far cuts keep off what"),

@@ -10,18 +10,23 @@
 enum { STATIONS = 6, HEIGHTS = 7, NODES = STATIONS + 4, LEVELS = HEIGHTS + 1 };
 static const double midline_mm = 6, margin_mm = 12;
 
-static cutter block(const jaw_side *j, const osteotomy_params *p)
+/* *moved_mm: farthest that a corner of the sagittal cut lies inside its first place. */
+static cutter block(const jaw_side *j, const osteotomy_params *p, double *moved_mm)
 {
     double xyz[3 * NODES * LEVELS], front = jaw_side_buccal_y(j, j->low[2]);
     front = fmin(front, jaw_side_buccal_y(j, j->top)) - 2 * margin_mm;
     double bottom = fmin(jaw_side_border(j, j->m2[1]), j->low[2]) - 2 * margin_mm;
     double lowest = fmin(j->border_at_v, j->lingual[1][1]) - 2;
+    jaw_side as_fitted = *j;
+    as_fitted.plate_mm = 0;
+    *moved_mm = 0;
     for (int l = 0; l < LEVELS; l++) {
         double z = l < HEIGHTS ? j->top + l / (HEIGHTS - 1.0) * (lowest - j->top) : bottom, zs = fmax(z, lowest);
         double node[NODES][3], y0 = jaw_side_buccal_y(j, zs), y1 = jaw_side_lingual_y(j, zs);
         for (int s = 0; s < STATIONS; s++) {
             double y = y0 + s / (STATIONS - 1.0) * (y1 - y0);
             node[s + 1][0] = jaw_side_sagittal_x(j, p, y, zs);
+            *moved_mm = fmax(*moved_mm, jaw_side_sagittal_x(&as_fitted, p, y, zs) - node[s + 1][0]);
             node[s + 1][1] = y;
         }
         node[0][0] = j->high[0] + 2 * margin_mm;
@@ -129,8 +134,9 @@ static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, c
         low[0] = -high[0];
         high[0] = -keep;
     }
-    cutter box = cutter_box(&j->frame, low, high), distal = block(j, p);
-    cut_bodies b = {.sheet = cutter_sheet(&distal)};
+    double moved;
+    cutter box = cutter_box(&j->frame, low, high), distal = block(j, p, &moved);
+    cut_bodies b = {.sheet = cutter_sheet(&distal), .moved_mm = moved};
     surface wide = cutter_offset(&box, 0, HOLLOW_MM);
     bool ok = carve(&box.body, &distal, p->kerf_mm / 2, &b.inner, e) &&
               carve(&wide, &distal, p->kerf_mm / 2, &b.hollow, e) &&
@@ -147,13 +153,14 @@ static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, c
 }
 
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,
-                 cut_bodies *out, cut_report *r, err *e)
+                 double plate_mm, cut_bodies *out, cut_report *r, err *e)
 {
     char label[6][LANDMARK_LABEL_SIZE];
     const char *needed[7];
     jaw_side j;
     jaw_side_needs(side, label, needed);
     if (!need_landmarks(in->points, "BSSO", needed, e) || !jaw_side_open(in, mandible, side, &j, e)) return false;
+    j.plate_mm = plate_mm;
     bool ok = bodies_of(&j, p, out, r, e);
     jaw_side_close(&j);
     return ok;

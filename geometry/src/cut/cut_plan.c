@@ -128,6 +128,20 @@ double outline_at(const outline *o, double x)
     return a + (at - i) * (b - a);
 }
 
+void report_take(cut_report *r, cut_report *from)
+{
+#define TAKE(type, list)                                                                                               \
+    r->list = GROW_ARRAY(type, r->list, r->list##_count + from->list##_count);                                         \
+    for (int i = 0; i < from->list##_count; i++) r->list[r->list##_count++] = from->list[i]
+    TAKE(cut_balance, balance);
+    TAKE(cut_clearance, clearance);
+    TAKE(cut_fragment, fragment);
+    TAKE(cut_plane, plane);
+#undef TAKE
+    for (int i = 0; i < from->warning_count; i++) report_warning(r, "%s", from->warning[i]);
+    cut_report_free(from);
+}
+
 void report_clearance(cut_report *r, const char *name, double value_mm, double limit_mm, bool estimated)
 {
     r->clearance = GROW_ARRAY(cut_clearance, r->clearance, r->clearance_count + 1);

@@ -8,6 +8,7 @@ typedef struct cut_bodies {
     surface inner, outer; /* smaller and larger by half the kerf */
     surface hollow;       /* inner, larger where it does not cut: outer without hollow has no face of zero thickness */
     surface sheet;        /* the middle of the cut, open; empty for user planes */
+    double moved_mm;      /* farthest that a split was moved inwards for the lateral plate */
 } cut_bodies;
 #define HOLLOW_MM 1.0
 
@@ -15,11 +16,15 @@ void cut_bodies_free(cut_bodies *b);
 /* Offsets of one cutter whose body is the piece. */
 cut_bodies cut_bodies_from(const cutter *c, double kerf_mm);
 
-/* The osteotomies. side: +1 left, -1 right. */
+/* The osteotomies. side: +1 left, -1 right. plate_mm: least lateral plate that a split leaves behind the molars, by
+ * moving inwards where the sheet would run nearer to the outside or beyond it; 0: as the sheet is fitted. */
 bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e);
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,
-                 cut_bodies *out, cut_report *r, err *e);
+                 double plate_mm, cut_bodies *out, cut_report *r, err *e);
 bool genioplasty_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e);
+
+/* Warns of landmarks on another piece than anatomy puts them on. */
+bool cut_places_check(const osteotomy_input *in, const segments *s, cut_report *r, err *e) MUST_CHECK;
 
 /* Axes of the mandible itself, whatever the opening of the mouth: up is the normal of the lower occlusal
  * plane (L1, L6_L, L6_R), left from right to left over the paired points. */
@@ -50,6 +55,8 @@ outline outline_make(const surface *s, const head_frame *f, int side, int across
 void outline_free(outline *o);
 double outline_at(const outline *o, double x); /* infinite, of the sign opposite to `sign`, where there is no bone */
 
+/* Adds `from` to r and leaves it empty. */
+void report_take(cut_report *r, cut_report *from);
 void report_clearance(cut_report *r, const char *name, double value_mm, double limit_mm, bool estimated);
 void report_plane(cut_report *r, const char *label, const double point[3], const double normal[3]);
 void report_warning(cut_report *r, const char *fmt, ...) PRINTF_LIKE(2, 3);

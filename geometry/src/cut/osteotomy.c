@@ -1,60 +1,10 @@
 #include "geometry/osteotomy.h"
 #include "geometry/boolean.h"
-#include "geometry/clock.h"
-#include "geometry/mem.h"
-#include "geometry/src/cut/cut_plan.h"
-#include "geometry/src/cut/fragments.h"
+#include "geometry/handles.h"
+#include "geometry/src/cut/sawn.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 #include <string.h>
-
-static const double balance_limit = 1e-3;
-
-/* Cuts `piece` off *rest and adds to *kerf. */
-static bool cut_off(const char *name, const cut_bodies *b, segment_id piece_id, segment_id rest_id,
-                    const osteotomy_params *p, surface *rest, surface *piece, surface *kerf, cut_report *r, err *e)
-{
-    surface shell = {0}, off = {0}, left = {0}, dust = {0};
-    double start = clock_s(), before = surface_volume(rest);
-    bool ok = boolean_apply(&b->outer, &b->hollow, BOOLEAN_DIFFERENCE, &shell, NULL, e) &&
-              boolean_apply(rest, &b->inner, BOOLEAN_INTERSECTION, &off, NULL, e) &&
-              boolean_apply(rest, &b->outer, BOOLEAN_DIFFERENCE, &left, NULL, e) &&
-              boolean_apply(rest, &shell, BOOLEAN_INTERSECTION, &dust, NULL, e);
-    if (ok && (!off.triangle_count || !left.triangle_count || !dust.triangle_count))
-        ok = err_set(e, ERR_GEOMETRY, "the cut misses the bone: nothing is %s",
-                     !off.triangle_count    ? "cut off"
-                     : !left.triangle_count ? "left"
-                                            : "sawn");
-    if (ok) {
-        cut_balance c = {.before_mm3 = before,
-                         .piece_mm3 = surface_volume(&off),
-                         .rest_mm3 = surface_volume(&left),
-                         .kerf_mm3 = surface_volume(&dust),
-                         .seconds = clock_s() - start};
-        snprintf(c.name, sizeof c.name, "%.31s", name);
-        c.error_share = fabs(c.piece_mm3 + c.rest_mm3 + c.kerf_mm3 - before) / before;
-        r->balance = GROW_ARRAY(cut_balance, r->balance, r->balance_count + 1);
-        r->balance[r->balance_count++] = c;
-        if (!(c.error_share <= balance_limit))
-            ok = err_set(e, ERR_GEOMETRY, "volumes do not add up: %.1f + %.1f + %.1f of %.1f mm^3", c.piece_mm3,
-                         c.rest_mm3, c.kerf_mm3, before);
-    }
-    if (ok) ok = fragments_settle(&off, piece_id, &left, rest_id, &dust, p->fragment_mm3, r, e);
-    if (ok) {
-        surface all = kerf->triangle_count ? surface_joined(kerf, &dust) : surface_copy(&dust);
-        surface_free(kerf);
-        *kerf = all;
-        surface_free(rest);
-        *rest = left;
-        *piece = off;
-        left = off = (surface){0};
-    }
-    surface_free(&shell);
-    surface_free(&off);
-    surface_free(&left);
-    surface_free(&dust);
-    return ok || err_prefix(e, "%s", name);
-}
 
 /* A box around the bone, cut down by every plane of this label. */
 static bool plane_bodies(const osteotomy_input *in, const char *label, const surface *bone, const osteotomy_params *p,
@@ -136,85 +86,13 @@ static bool check_input(const osteotomy_input *in, err *e)
     return true;
 }
 
-/* The piece that anatomy puts a landmark on. */
-static const struct {
-    const char *label;
-    segment_id want;
-} places[] = {{"U1", SEGMENT_MAXILLA},
-              {"U3_L", SEGMENT_MAXILLA},
-              {"U3_R", SEGMENT_MAXILLA},
-              {"U6_L", SEGMENT_MAXILLA},
-              {"U6_R", SEGMENT_MAXILLA},
-              {"A", SEGMENT_MAXILLA},
-              {"ANS", SEGMENT_MAXILLA},
-              {"PNS", SEGMENT_MAXILLA},
-              {"N", SEGMENT_CRANIUM},
-              {"Or_L", SEGMENT_CRANIUM},
-              {"Or_R", SEGMENT_CRANIUM},
-              {"Zy_L", SEGMENT_CRANIUM},
-              {"Zy_R", SEGMENT_CRANIUM},
-              {"IOF_L", SEGMENT_CRANIUM},
-              {"IOF_R", SEGMENT_CRANIUM},
-              {"L1", SEGMENT_DISTAL},
-              {"L3_L", SEGMENT_DISTAL},
-              {"L3_R", SEGMENT_DISTAL},
-              {"L6_L", SEGMENT_DISTAL},
-              {"L6_R", SEGMENT_DISTAL},
-              {"L7_L", SEGMENT_DISTAL},
-              {"L7_R", SEGMENT_DISTAL},
-              {"Li_L", SEGMENT_DISTAL},
-              {"Li_R", SEGMENT_DISTAL},
-              {"MF_L", SEGMENT_DISTAL},
-              {"MF_R", SEGMENT_DISTAL},
-              {"B", SEGMENT_DISTAL},
-              {"Co_L", SEGMENT_PROXIMAL_LEFT},
-              {"Cor_L", SEGMENT_PROXIMAL_LEFT},
-              {"RP_L", SEGMENT_PROXIMAL_LEFT},
-              {"Go_L", SEGMENT_PROXIMAL_LEFT},
-              {"SN_L", SEGMENT_PROXIMAL_LEFT},
-              {"Co_R", SEGMENT_PROXIMAL_RIGHT},
-              {"Cor_R", SEGMENT_PROXIMAL_RIGHT},
-              {"RP_R", SEGMENT_PROXIMAL_RIGHT},
-              {"Go_R", SEGMENT_PROXIMAL_RIGHT},
-              {"SN_R", SEGMENT_PROXIMAL_RIGHT},
-              {"Me", SEGMENT_CHIN},
-              {"Pog", SEGMENT_CHIN},
-              {"Gn", SEGMENT_CHIN}};
-
-static bool check_places(const osteotomy_input *in, const segments *s, cut_report *r, err *e)
-{
-    nearest *tree[SEGMENT_COUNT] = {0};
-    bool ok = true;
-    for (int i = 0; i < SEGMENT_COUNT && ok; i++)
-        if (s->part[i].triangle_count) ok = nearest_create(s->part + i, tree + i, e);
-    for (size_t k = 0; k < sizeof places / sizeof *places && ok; k++) {
-        const landmark *l = landmarks_find(in->points, places[k].label);
-        if (!l || !tree[places[k].want]) continue;
-        int best = -1;
-        double least = HUGE_VAL;
-        for (int i = 0; i < SEGMENT_COUNT; i++) {
-            double d = tree[i] ? nearest_point(tree[i], l->xyz, NULL, NULL) : HUGE_VAL;
-            if (d < least) {
-                least = d;
-                best = i;
-            }
-        }
-        if (best != (int)places[k].want)
-            report_warning(r, "%s lies on the %s segment, not on the %s", places[k].label, segment_name(best),
-                           segment_name(places[k].want));
-    }
-    for (int i = 0; i < SEGMENT_COUNT; i++) nearest_destroy(tree + i);
-    return ok;
-}
-
-static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
-                        segments *s, cut_report *r, err *e)
+/* One cut of a bone; plate_mm as in bsso_bodies. */
+static bool cut_once(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
+                     double plate_mm, const surface *bone, sawn *out, err *e)
 {
     bool upper = id == SEGMENT_MAXILLA, planes = has_planes(in, id);
-    segment_id rest = upper ? SEGMENT_CRANIUM : SEGMENT_DISTAL;
-    unsigned kind = upper ? OSTEOTOMY_LE_FORT_1 : id == SEGMENT_CHIN ? OSTEOTOMY_GENIOPLASTY : OSTEOTOMY_BSSO;
-    if (!planes && !(in->kinds & kind)) return true;
     cut_bodies b = {0};
+    cut_report *r = &out->report;
     char name[64];
     snprintf(name, sizeof name, "%s%s",
              planes                        ? "planes of "
@@ -223,12 +101,69 @@ static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, se
              : id == SEGMENT_PROXIMAL_LEFT ? "bsso left"
                                            : "bsso right",
              planes ? segment_name(id) : "");
-    bool ok = planes               ? plane_bodies(in, segment_name(id), s->part + rest, p, &b, r, e)
+    bool ok = planes               ? plane_bodies(in, segment_name(id), bone, p, &b, r, e)
               : upper              ? le_fort_bodies(in, p, &b, r, e)
               : id == SEGMENT_CHIN ? genioplasty_bodies(in, p, &b, r, e)
-                                   : bsso_bodies(in, p, jaw, id == SEGMENT_PROXIMAL_LEFT ? 1 : -1, &b, r, e);
-    ok = ok && cut_off(name, &b, id, rest, p, s->part + rest, s->part + id, &s->kerf, r, e);
+                                   : bsso_bodies(in, p, jaw, id == SEGMENT_PROXIMAL_LEFT ? 1 : -1, plate_mm, &b, r, e);
+    ok = ok && sawn_make(name, &b, id, upper ? SEGMENT_CRANIUM : SEGMENT_DISTAL, p, bone, out, e);
     cut_bodies_free(&b);
+    return ok;
+}
+
+/* A split that came out of the lateral plate is laid anew further inside, for a thicker plate until no window is left.
+ */
+static void lay_anew(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
+                     const surface *bone, sawn *s)
+{
+    const breach first = s->where;
+    for (double plate_mm = 1.5; s->made > 0 && plate_mm <= 3.5; plate_mm++) {
+        sawn again = {0};
+        err unused = {0}; /* a cut that cannot be laid there is no fault of the one that can */
+        bool better = cut_once(in, p, id, jaw, plate_mm, bone, &again, &unused) && again.made < s->made;
+        if (better) {
+            sawn worse = *s;
+            *s = again;
+            again = worse;
+            report_warning(&s->report,
+                           "%s: as first laid, the split came out of the lateral plate in a window of %.1f mm near %s "
+                           "(%.1f, %.1f, %.1f); it was moved inwards by up to %.1f mm to leave a plate of %.1f mm",
+                           segment_name(id), first.wide_mm, breach_landmark(&first, in->points), first.place[0],
+                           first.place[1], first.place[2], s->moved_mm, plate_mm);
+        }
+        sawn_free(&again);
+    }
+}
+
+static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
+                        segments *s, cut_report *r, err *e)
+{
+    segment_id rest = id == SEGMENT_MAXILLA ? SEGMENT_CRANIUM : SEGMENT_DISTAL;
+    unsigned kind = id == SEGMENT_MAXILLA ? OSTEOTOMY_LE_FORT_1
+                    : id == SEGMENT_CHIN  ? OSTEOTOMY_GENIOPLASTY
+                                          : OSTEOTOMY_BSSO;
+    bool planes = has_planes(in, id);
+    if (!planes && !(in->kinds & kind)) return true;
+    sawn cut = {0};
+    bool ok = cut_once(in, p, id, jaw, 0, s->part + rest, &cut, e);
+    if (ok && !planes && kind == OSTEOTOMY_BSSO) lay_anew(in, p, id, jaw, s->part + rest, &cut);
+    if (ok) {
+        surface kerf = surface_joined(&s->kerf, &cut.kerf), bone = s->part[rest];
+        if (cut.made > 0)
+            report_warning(
+                &cut.report,
+                "%s: the cut meets no bone in a window of %.1f mm near %s (%.1f, %.1f, %.1f): handles of the "
+                "bone %d, of its pieces %d",
+                segment_name(id), cut.where.wide_mm, breach_landmark(&cut.where, in->points), cut.where.place[0],
+                cut.where.place[1], cut.where.place[2], cut.handles, cut.handles + cut.made);
+        report_take(r, &cut.report);
+        surface_free(&s->kerf);
+        s->kerf = kerf;
+        s->part[id] = cut.piece;
+        s->part[rest] = cut.rest;
+        cut.piece = (surface){0};
+        cut.rest = bone;
+    }
+    sawn_free(&cut);
     return ok;
 }
 
@@ -243,14 +178,17 @@ bool osteotomy_cut(const osteotomy_input *in, const osteotomy_params *p, segment
     bool ok = !in->mandible || nearest_create(in->mandible, &jaw, e);
     static const segment_id order[] = {SEGMENT_MAXILLA, SEGMENT_PROXIMAL_LEFT, SEGMENT_PROXIMAL_RIGHT, SEGMENT_CHIN};
     for (int i = 0; i < 4 && ok; i++) ok = cut_segment(in, p, order[i], jaw, &s, &r, e);
-    ok = ok && check_places(in, &s, &r, e);
+    ok = ok && cut_places_check(in, &s, &r, e);
     nearest_destroy(&jaw);
     if (!ok) {
         segments_free(&s);
         cut_report_free(&r);
         return false;
     }
-    for (int i = 0; i < SEGMENT_COUNT; i++) r.volume_mm3[i] = surface_volume(s.part + i);
+    for (int i = 0; i < SEGMENT_COUNT; i++) {
+        r.volume_mm3[i] = surface_volume(s.part + i);
+        r.handles[i] = surface_handles(s.part + i);
+    }
     r.kerf_mm3 = surface_volume(&s.kerf);
     *out = s;
     if (report)
