@@ -1,15 +1,13 @@
 #include "norm_head.h"
 #include "bite.h"
+#include "fields.h"
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
 #include "fit.h"
-#include "geometry/vec.h"
 #include "sdf.h"
 #include "skin_colour.h"
-#include "targets.h"
 #include "teeth.h"
 #include "thickness.h"
-#include "warp.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,52 +36,6 @@ bool norm_head_params_check(const norm_head_params *p, err *e)
 /* The thinnest soft tissue of the tables is that over the bridge of the nose: 3 mm, with a spread. */
 static const double skin_least_mm = 2.5;
 
-/* Points of a body that only take the size of the sex: what is far from the jaws stays in proportion. */
-static void add_anchors(warp_pairs *w, const double (*point)[3], int count, const double scale[3])
-{
-    for (int i = 0; i < count; i++)
-        for (int side = 1; side >= (point[i][0] == 0 ? 1 : -1); side -= 2) {
-            double from[3] = {side * point[i][0], point[i][1], point[i][2]}, to[3];
-            for (int c = 0; c < 3; c++) to[c] = from[c] * scale[c];
-            warp_add(w, from, to);
-        }
-}
-
-static const double skull_anchors[][3] = {{0, -88, 66},  {0, -55, 103}, {0, 10, 113}, {0, 82, 50},
-                                          {0, 40, -20},  {60, 0, 60},   {55, 40, 10}, {38, -76, 60},
-                                          {50, -63, 28}, {54, 10, -26}, {48, -11, 4}, {46, -64, -8}};
-static const double mandible_anchors[][3] = {{44.3, -39.6, -8}};
-static const double skin_anchors[][3] = {{0, -94, 68},  {0, -62, 107}, {0, 8, 119},    {0, 88, 55},
-                                         {0, 70, -20},  {70, 0, 60},   {66, 45, 20},   {44, -78, 60},
-                                         {52, -72, 30}, {66, -28, 30}, {31, -88, 14},  {45, -80, -3},
-                                         {75, 20, 30},  {76, 10, -22}, {0, -30, -150}, {0, 60, -150}};
-
-/* Where men differ beyond size and measures: the neck. */
-typedef struct dimorphic {
-    double at[3], male_shift[3];
-} dimorphic;
-static const dimorphic skin_dimorphic[] = {{{46, 10, -150}, {6, 0, 0}}, {{46, 13, -95}, {5, 0, 0}}};
-
-static void add_dimorphic(warp_pairs *w, const dimorphic *list, int count, norm_sex sex, const double scale[3])
-{
-    for (int i = 0; i < count; i++)
-        for (int side = 1; side >= -1; side -= 2) {
-            double from[3], to[3];
-            vec_copy(list[i].at, from);
-            for (int c = 0; c < 3; c++) to[c] = from[c] * scale[c] + (sex == NORM_MALE ? list[i].male_shift[c] : 0);
-            from[0] *= side;
-            to[0] *= side;
-            warp_add(w, from, to);
-        }
-}
-
-static int place_number(const place *list, int count, const char *label)
-{
-    for (int i = 0; i < count; i++)
-        if (!strcmp(list[i].label, label)) return i;
-    return -1;
-}
-
 static void warp_by(const warp *w, surface *s, surface *teeth, const place *list, int count, place_on bone,
                     place_on crowns, landmarks *points)
 {
@@ -95,42 +47,6 @@ static void warp_by(const warp *w, surface *s, surface *teeth, const place *list
         warp_apply(w, list[i].xyz, p);
         landmarks_set(points, list[i].label, p);
     }
-}
-
-/* The skin over the jaws follows the bone under it: these points take a share of what their landmarks do. */
-typedef struct follower {
-    double at[3];
-    struct {
-        const char *label;
-        double share;
-    } of[3];
-} follower;
-
-static const follower followers[] = {{{40, -78, -32}, {{"A", 0.3}, {"L1", 0.25}, {NULL, 0}}},
-                                     {{36, -80, -50}, {{"U1", 0.2}, {"L1", 0.3}, {"B", 0.2}}},
-                                     {{24, -86, -72}, {{"B", 0.5}, {"Pog", 0.5}, {NULL, 0}}},
-                                     {{26, -77, -86}, {{"Me", 0.9}, {"Go_L", 0.1}, {NULL, 0}}}};
-
-static void add_followers(warp_pairs *w, const place *list, int count, const double *to, const double scale[3])
-{
-    for (size_t i = 0; i < sizeof followers / sizeof *followers; i++)
-        for (int side = 1; side >= -1; side -= 2) {
-            const follower *f = &followers[i];
-            double from[3] = {side * f->at[0], f->at[1], f->at[2]}, goal[3];
-            for (int c = 0; c < 3; c++) goal[c] = from[c] * scale[c];
-            for (int k = 0; k < 3 && f->of[k].label; k++) {
-                char label[LANDMARK_LABEL_SIZE];
-                strcpy(label, f->of[k].label);
-                char *hand = strstr(label, "_L");
-                if (hand && side < 0) hand[1] = 'R';
-                int n = place_number(list, count, label);
-                double move[3];
-                for (int c = 0; c < 3; c++) move[c] = to[3 * n + c] - list[n].xyz[c] * scale[c];
-
-                vec_axpy(goal, f->of[k].share, move, goal);
-            }
-            warp_add(w, from, goal);
-        }
 }
 
 static surface join_teeth(const tooth *t)
@@ -146,50 +62,6 @@ static surface join_teeth(const tooth *t)
     return all;
 }
 
-typedef struct fields { /* the pairs of the three warps */
-    warp_pairs skin, upper, lower;
-    warp up, down; /* through the last two */
-} fields;
-
-static fields make_fields(const norm_head_params *p, const place *list, int count, const thickness_site *sites,
-                          const double *asked, double lower_molars_mm)
-{
-    double *to = NEW_ARRAY(double, 3 * count), scale[3];
-    bool *held = NEW_ARRAY(bool, count);
-    targets_find(list, count, p, asked, lower_molars_mm, to, held);
-    targets_scale(p->sex, scale);
-    fields f = {0};
-    for (int i = 0; i < count; i++) {
-        if (!held[i]) continue;
-        place_on on = list[i].on;
-        warp_add(on == ON_SKIN                            ? &f.skin
-                 : on == ON_SKULL || on == ON_UPPER_TEETH ? &f.upper
-                                                          : &f.lower,
-                 list[i].xyz, to + 3 * i);
-    }
-#define ANCHORS(w, a) add_anchors(w, a, (int)(sizeof(a) / sizeof *(a)), scale)
-    ANCHORS(&f.upper, skull_anchors);
-    ANCHORS(&f.lower, mandible_anchors);
-    ANCHORS(&f.skin, skin_anchors);
-    add_dimorphic(&f.skin, skin_dimorphic, 2, p->sex, scale);
-    add_followers(&f.skin, list, count, to, scale);
-    f.up = warp_through(&f.upper);
-    f.down = warp_through(&f.lower);
-    thickness_targets(sites, &f.up, &f.down, asked, &f.skin);
-    free(to);
-    free(held);
-    return f;
-}
-
-static void free_fields(fields *f)
-{
-    warp_pairs_free(&f->skin);
-    warp_pairs_free(&f->upper);
-    warp_pairs_free(&f->lower);
-    warp_free(&f->up);
-    warp_free(&f->down);
-}
-
 /* How far the lower side teeth must be lowered so that they meet the upper ones: the arches of a class II or
  * III slide along each other and cusps come onto cusps. */
 static bool find_bite(const norm_head_params *p, const place *list, int count, const thickness_site *sites,
@@ -197,14 +69,14 @@ static bool find_bite(const norm_head_params *p, const place *list, int count, c
 {
     double lowered = 0;
     for (int round = 0; round < 6; round++) {
-        fields f = make_fields(p, list, count, sites, h->asked, lowered);
+        fields f = fields_make(p, list, count, sites, h->asked, lowered);
         surface upper = surface_copy(&h->upper_teeth), lower = surface_copy(&h->lower_teeth);
         warp_surface(&f.up, &upper);
         warp_surface(&f.down, &lower);
         double canine[3], depth = 0;
         warp_apply(&f.up, list[place_number(list, count, "U3_L")].xyz, canine);
         bool ok = fit_overlap(&upper, &lower, canine[1] + 4, &depth, e);
-        free_fields(&f);
+        fields_free(&f);
         surface_free(&upper);
         surface_free(&lower);
         if (!ok) return false;
@@ -215,25 +87,35 @@ static bool find_bite(const norm_head_params *p, const place *list, int count, c
     return true;
 }
 
-static bool shape(const norm_head_params *p, const place *list, int count, const thickness_site *sites,
-                  const bool *exempt, norm_head *h, err *e)
+struct norm_mean {
+    bodies b;
+    norm_head head; /* unwarped; no skin and skull if for the mandible alone */
+    place *list;
+    int count;
+    thickness_site sites[THICKNESS_SITES];
+    bool *fold; /* [head.skin.vertex_count] */
+};
+
+static bool shape_skin(const norm_mean *m, const fields *f, norm_head *h, err *e)
 {
-    double lowered = 0;
-    if (!find_bite(p, list, count, sites, h, &lowered, e)) return false;
-    fields f = make_fields(p, list, count, sites, h->asked, lowered);
-    warp_by(&f.up, &h->skull, &h->upper_teeth, list, count, ON_SKULL, ON_UPPER_TEETH, &h->points);
-    warp_by(&f.down, &h->mandible, &h->lower_teeth, list, count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
-    if (!bite_settle(&h->upper_teeth, &h->lower_teeth, list, count, &h->points, e)) {
-        free_fields(&f);
-        return false;
-    }
-    warp skin = warp_through(&f.skin);
-    warp_by(&skin, &h->skin, NULL, list, count, ON_SKIN, ON_SKIN, &h->points);
+    warp skin = warp_through(&f->skin);
+    warp_by(&skin, &h->skin, NULL, m->list, m->count, ON_SKIN, ON_SKIN, &h->points);
     warp_free(&skin);
     const surface *bones[] = {&h->skull, &h->mandible, &h->upper_teeth, &h->lower_teeth};
-    bool ok = fit_clear(&h->skin, exempt, bones, 4, skin_least_mm, &h->thinnest_mm, e) &&
-              thickness_measure(sites, &f.up, &f.down, &h->skull, &h->mandible, &h->skin, h->asked, h->obtained, e);
-    free_fields(&f);
+    return fit_clear(&h->skin, m->fold, bones, 4, skin_least_mm, &h->thinnest_mm, e) &&
+           thickness_measure(m->sites, &f->up, &f->down, &h->skull, &h->mandible, &h->skin, h->asked, h->obtained, e);
+}
+
+static bool shape(const norm_mean *m, const norm_head_params *p, norm_head *h, err *e)
+{
+    double lowered = 0;
+    if (!find_bite(p, m->list, m->count, m->sites, h, &lowered, e)) return false;
+    fields f = fields_make(p, m->list, m->count, m->sites, h->asked, lowered);
+    warp_by(&f.up, &h->skull, &h->upper_teeth, m->list, m->count, ON_SKULL, ON_UPPER_TEETH, &h->points);
+    warp_by(&f.down, &h->mandible, &h->lower_teeth, m->list, m->count, ON_MANDIBLE, ON_LOWER_TEETH, &h->points);
+    bool ok = bite_settle(&h->upper_teeth, &h->lower_teeth, m->list, m->count, &h->points, e) &&
+              (!h->skin.triangle_count || shape_skin(m, &f, h, e));
+    fields_free(&f);
     return ok;
 }
 
@@ -260,45 +142,87 @@ static bool *skin_folds(const surface *skin)
     return fold;
 }
 
-bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
+bool norm_mean_build(double coarseness, bool mandible_alone, norm_mean **out, err *e)
 {
-    if (!norm_head_params_check(p, e)) return false;
-    norm_head h = {0};
-    norms_draw(p->sex, p->skeletal_class, p->seed, h.asked);
+    norm_mean *m = NEW_ARRAY(norm_mean, 1);
+    norm_head *h = &m->head;
+    m->b = bodies_build();
+    bool ok = (mandible_alone || (body_surface(&m->b, BODY_SKIN, coarseness, &h->skin, e) &&
+                                  body_surface(&m->b, BODY_SKULL, coarseness, &h->skull, e))) &&
+              body_surface(&m->b, BODY_MANDIBLE, coarseness, &h->mandible, e);
+    if (!ok) {
+        norm_mean_free(m);
+        return false;
+    }
+    h->upper_teeth = join_teeth(upper_teeth);
+    h->lower_teeth = join_teeth(lower_teeth);
+    h->skin.rgb = skin_colours(&h->skin);
+    m->fold = skin_folds(&h->skin);
+    m->count = places_find(&m->b, &m->list);
+    thickness_sites(&m->b, m->sites);
+    *out = m;
+    return true;
+}
+
+void norm_mean_free(norm_mean *m)
+{
+    if (!m) return;
+    bodies_free(&m->b);
+    norm_head_free(&m->head);
+    free(m->list);
+    free(m->fold);
+    free(m);
+}
+
+static void ask(const norm_head_params *p, double asked[MEASURE_COUNT])
+{
+    norms_draw(p->sex, p->skeletal_class, p->seed, asked);
     if (p->open_bite_mm > 0) {
-        h.asked[OVERBITE_MM] = -p->open_bite_mm;
-        h.asked[FMA_DEG] += 0.8 * p->open_bite_mm;
-        h.asked[LOWER_FACE_MM] += 0.8 * p->open_bite_mm;
+        asked[OVERBITE_MM] = -p->open_bite_mm;
+        asked[FMA_DEG] += 0.8 * p->open_bite_mm;
+        asked[LOWER_FACE_MM] += 0.8 * p->open_bite_mm;
     }
     for (int i = 0; i < MEASURE_COUNT; i++)
-        if (p->is_set[i]) h.asked[i] = p->set[i];
-    bodies b = bodies_build();
-    bool ok = body_surface(&b, BODY_SKIN, p->coarseness, &h.skin, e) &&
-              body_surface(&b, BODY_SKULL, p->coarseness, &h.skull, e) &&
-              body_surface(&b, BODY_MANDIBLE, p->coarseness, &h.mandible, e);
-    if (ok) {
-        h.upper_teeth = join_teeth(upper_teeth);
-        h.lower_teeth = join_teeth(lower_teeth);
-        h.skin.rgb = skin_colours(&h.skin);
-        place *list = NULL;
-        int count = places_find(&b, &list);
-        thickness_site sites[THICKNESS_SITES];
-        thickness_sites(&b, sites);
-        bool *exempt = skin_folds(&h.skin);
-        ok = shape(p, list, count, sites, exempt, &h, e) && onto_mesh(&h.skin, ON_SKIN, list, count, &h.points, e) &&
-             onto_mesh(&h.skull, ON_SKULL, list, count, &h.points, e) &&
-             onto_mesh(&h.mandible, ON_MANDIBLE, list, count, &h.points, e) &&
-             onto_mesh(&h.upper_teeth, ON_UPPER_TEETH, list, count, &h.points, e) &&
-             onto_mesh(&h.lower_teeth, ON_LOWER_TEETH, list, count, &h.points, e);
-        for (int i = 0; ok && i < GLABELLA_SOFT_MM; i++) h.obtained[i] = measure_of((measure_id)i, &h.points);
-        free(list);
-        free(exempt);
-    }
-    bodies_free(&b);
+        if (p->is_set[i]) asked[i] = p->set[i];
+}
+
+bool norm_head_shape(const norm_mean *m, const norm_head_params *p, norm_head *out, err *e)
+{
+    if (!norm_head_params_check(p, e)) return false;
+    const norm_head *mean = &m->head;
+    norm_head h = {.skin = surface_copy(&mean->skin),
+                   .skull = surface_copy(&mean->skull),
+                   .mandible = surface_copy(&mean->mandible),
+                   .upper_teeth = surface_copy(&mean->upper_teeth),
+                   .lower_teeth = surface_copy(&mean->lower_teeth)};
+    const struct {
+        const surface *on;
+        place_on what;
+    } carrier[] = {{&h.skin, ON_SKIN},
+                   {&h.skull, ON_SKULL},
+                   {&h.mandible, ON_MANDIBLE},
+                   {&h.upper_teeth, ON_UPPER_TEETH},
+                   {&h.lower_teeth, ON_LOWER_TEETH}};
+    ask(p, h.asked);
+    bool ok = shape(m, p, &h, e), skin = h.skin.triangle_count > 0;
+    for (int i = 0; ok && i < 5; i++)
+        ok = !carrier[i].on->triangle_count ||
+             onto_mesh(carrier[i].on, carrier[i].what, m->list, m->count, &h.points, e);
+    for (int i = 0; ok && i < (skin ? GLABELLA_SOFT_MM : NASION_SOFT_MM); i++)
+        h.obtained[i] = measure_of((measure_id)i, &h.points);
     if (ok)
         *out = h;
     else
         norm_head_free(&h);
+    return ok;
+}
+
+bool norm_head_build(const norm_head_params *p, norm_head *out, err *e)
+{
+    norm_mean *m = NULL;
+    if (!norm_head_params_check(p, e) || !norm_mean_build(p->coarseness, false, &m, e)) return false;
+    bool ok = norm_head_shape(m, p, out, e);
+    norm_mean_free(m);
     return ok;
 }
 

@@ -32,3 +32,13 @@ bool norm_head_params_check(const norm_head_params *p, err *e) MUST_CHECK;
 /* The caller frees *out. Refuses what norm_head_params_check does. About half a minute on two cores. */
 bool norm_head_build(const norm_head_params *p, norm_head *out, err *e) MUST_CHECK;
 void norm_head_free(norm_head *h);
+
+/* The same in two steps, for many heads: the mean head's meshes once, then each head from them. */
+typedef struct norm_mean norm_mean;
+/* mandible_alone: what a split needs. Without the meshes of skin and skull: its heads have neither, no points on the
+ * skin and no measures of soft tissue; points on the skull lie where it would be, to 0.1 mm. The caller frees *out with
+ * norm_mean_free. */
+bool norm_mean_build(double coarseness, bool mandible_alone, norm_mean **out, err *e) MUST_CHECK;
+/* p->coarseness is ignored: that of the mean head holds. The caller frees *out. */
+bool norm_head_shape(const norm_mean *m, const norm_head_params *p, norm_head *out, err *e) MUST_CHECK;
+void norm_mean_free(norm_mean *m);
