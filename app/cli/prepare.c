@@ -14,7 +14,7 @@ static bool run(run_context *r, err *e)
         command_print_record(prepared_record_json(p));
     } else {
         printf("%s: %s, %.16s\n", r->patient.name, p->reused ? "was prepared already" : "prepared", p->hash);
-        prepared_print(p->report);
+        prepared_print(p);
     }
     return true;
 }

@@ -3,10 +3,10 @@
 
 static double number(const json_t *o, const char *key) { return json_number_value(json_object_get(o, key)); }
 
-void prepared_print(const json_t *report)
+void prepared_print(const prepared *p)
 {
-    const json_t *mesh = json_object_get(report, "mesh"), *attach = json_object_get(report, "attachment"),
-                 *cuts = json_object_get(report, "cuts"), *s = json_object_get(report, "seconds");
+    const json_t *report = p->report, *mesh = json_object_get(report, "mesh"),
+                 *attach = json_object_get(report, "attachment"), *cuts = json_object_get(report, "cuts");
     const char *name;
     json_t *value;
     printf("segments (cm3):");
@@ -31,7 +31,7 @@ void prepared_print(const json_t *report)
            number(attach, "tied"), number(attach, "sliding"), number(attach, "loose_near_cuts"),
            number(attach, "over_holes"), number(attach, "fixed_at_far_faces"), number(attach, "lip_pairs"));
     printf("left out: %s\n", json_string_value(json_object_get(report, "left_out")));
-    printf("skin to tets: mean %.3f mm, largest %.2f mm; %.1f s for the bones, %.1f s for the tissue\n",
-           number(report, "skin_gap_mean_mm"), number(report, "skin_gap_max_mm"), number(s, "bones"),
-           number(s, "tissue"));
+    printf("skin to tets: mean %.3f mm, largest %.2f mm\n", number(report, "skin_gap_mean_mm"),
+           number(report, "skin_gap_max_mm"));
+    if (!p->reused) printf("%.1f s for the bones, %.1f s for the tissue\n", p->bones_s, p->tissue_s);
 }

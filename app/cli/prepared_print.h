@@ -1,6 +1,5 @@
 /* prepared_print: repair, cuts and tissue mesh of a case on stdout. */
 #pragma once
-#include "geometry/json_file.h"
+#include "app/planner/patient/prepared.h"
 
-/* The record of prepared_report. */
-void prepared_print(const json_t *report);
+void prepared_print(const prepared *p);

@@ -4,14 +4,17 @@
 #include "app/planner/store/pack_file.h"
 #include "geometry/clock.h"
 #include "geometry/mem.h"
+#include "geometry/write_whole.h"
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* Raise it whenever the way from case to tissue changes, or what is checked: old files are then made anew. */
-static const double format = 4;
+static const double format = 5;
 
 static const double skin_reach_mm = 2; /* of a skin vertex from the tets that may carry it */
 
@@ -193,7 +196,9 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
         p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
         r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;
         r.skin_gap_max_mm = p.skin_on_tissue.max_gap_mm;
-        p.report = prepared_report(c, &a, &r, cut - start, clock_s() - cut);
+        p.report = prepared_report(c, &a, &r);
+        p.bones_s = cut - start;
+        p.tissue_s = clock_s() - cut;
         p.frame = a.frame;
         p.points = a.points;
         p.skin = a.skin;
@@ -207,37 +212,50 @@ static bool make(const case_file *c, const task *watch, prepared *out, err *e)
     return ok;
 }
 
+static bool read_kept(const char *path, const char hash[HASH_TEXT_SIZE], prepared *p)
+{
+    pack_file f = {0};
+    err unreadable = {0};
+    if (!pack_read(path, &f, &unreadable)) return false;
+    p->reused = take_pack(&f, hash, p);
+    p->bones_s = p->tissue_s = (double)NAN;
+    pack_free(&f);
+    if (!p->reused) prepared_free(p);
+    return p->reused;
+}
+
+/* The file is opened before the work: what would hinder writing it is told at once. */
+static bool make_and_keep(const case_file *c, const char *folder, const char *path, const char hash[HASH_TEXT_SIZE],
+                          const task *watch, prepared *p, err *e)
+{
+    whole_file file;
+    pack_file f = {0};
+    bool made = !mkdir(folder, 0777);
+    if (!made && errno != EEXIST)
+        return err_at(e, ERR_RESOURCE, folder, 0, NULL,
+                      "cannot be made (%s); --cache names another folder for what is prepared once", strerror(errno));
+    bool ok = whole_file_open(path, &file, e);
+    if (ok && !make(c, watch, p, e)) {
+        whole_file_abandon(&file);
+        ok = false;
+    } else if (ok) {
+        fill_pack(p, hash, &f);
+        ok = pack_write_into(&f, &file, e);
+        pack_free(&f);
+        if (!ok) prepared_free(p);
+    }
+    if (!ok && made) rmdir(folder);
+    return ok;
+}
+
 bool prepared_get(const case_file *c, const char *cache, const task *watch, prepared *out, err *e)
 {
     char hash[HASH_TEXT_SIZE], folder[FIELD_PATH_SIZE + 16], path[FIELD_PATH_SIZE + 64];
     if (!prepared_hash(c, hash, e)) return false;
     snprintf(folder, sizeof folder, "%s%s", cache ? cache : c->folder, cache ? "" : "/prepared");
     snprintf(path, sizeof path, "%s/%.16s.pack", folder, hash);
-    pack_file f = {0};
     prepared p = {0};
-    err unreadable = {0};
-    if (pack_read(path, &f, &unreadable)) {
-        p.reused = take_pack(&f, hash, &p);
-        pack_free(&f);
-        if (!p.reused) prepared_free(&p);
-    }
-    if (!p.reused) {
-        if (!make(c, watch, &p, e)) return false;
-        if (mkdir(folder, 0777) && errno != EEXIST) {
-            prepared_free(&p);
-            return err_at(e, ERR_RESOURCE, folder, 0, NULL,
-                          "cannot be made (%s); --cache names another folder for what "
-                          "is prepared once",
-                          strerror(errno));
-        }
-        fill_pack(&p, hash, &f);
-        bool ok = pack_write(&f, path, e);
-        pack_free(&f);
-        if (!ok) {
-            prepared_free(&p);
-            return false;
-        }
-    }
+    if (!read_kept(path, hash, &p) && !make_and_keep(c, folder, path, hash, watch, &p, e)) return false;
     memcpy(p.hash, hash, sizeof hash);
     *out = p;
     return true;

@@ -14,7 +14,8 @@ typedef struct prepared {
     segments segments;
     tissue tissue;
     embedding skin_on_tissue; /* one point per vertex of skin */
-    json_t *report;           /* repair, cuts, mesh quality, attachment, seconds: goes into outcome.json as it is */
+    json_t *report;           /* repair, cuts, mesh quality, attachment: goes into outcome.json as it is */
+    double bones_s, tissue_s; /* wall time of repair and cuts, and of the mesh; NAN where it was read from disk */
 } prepared;
 
 /* Takes it from CASE/prepared (or `cache` if not NULL) where a file of the right hash lies there, else makes

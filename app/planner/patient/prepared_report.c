@@ -34,7 +34,7 @@ typedef struct prepared_numbers {
     const tissue_report *tissue;
     const repair_report *skin, *skull, *mandible;
     const cut_report *cuts;
-    double gap_mean_mm, gap_max_mm, bones_s, tissue_s;
+    double gap_mean_mm, gap_max_mm;
     const char *left_out;
     int warnings;
     const case_warning *warning;
@@ -51,12 +51,10 @@ static const record_row report_row[] = {
     ROW(prepared_numbers, gap_max_mm, "skin_gap_max_mm", "mm", "largest distance of the skin from them"),
     ROW(prepared_numbers, left_out, "left_out", NULL, "what is not meshed"),
     ROW_ARRAY(prepared_numbers, warning, warnings, &case_warning_table, "warnings", "what is doubtful about the case"),
-    ROW(prepared_numbers, bones_s, "seconds.bones", "s", "wall time of repair and cuts"),
-    ROW(prepared_numbers, tissue_s, "seconds.tissue", "s", "wall time of the mesh"),
 };
 const record_table prepared_report_table = {.title = "Preparation of a case", RECORD_ROWS(report_row)};
 
-json_t *prepared_report(const case_file *c, const anatomy *a, const tissue_report *r, double bones_s, double tissue_s)
+json_t *prepared_report(const case_file *c, const anatomy *a, const tissue_report *r)
 {
     case_warnings doubts;
     case_warnings_make(c, &a->warnings, &doubts);
@@ -67,8 +65,6 @@ json_t *prepared_report(const case_file *c, const anatomy *a, const tissue_repor
                                 .cuts = &a->cuts,
                                 .gap_mean_mm = r->skin_gap_mean_mm,
                                 .gap_max_mm = r->skin_gap_max_mm,
-                                .bones_s = bones_s,
-                                .tissue_s = tissue_s,
                                 .left_out = r->left_out,
                                 .warnings = doubts.count,
                                 .warning = doubts.item};
@@ -92,6 +88,8 @@ static const record_row record_rows[] = {
     ROW(prepared, reused, "reused", NULL, "it was made earlier and taken from disk"),
     {RECORD_AT(prepared, report), .name = "prepared", .table = &prepared_report_table,
      .help = "repair, cuts and mesh in numbers"},
+    ROW(prepared, bones_s, "seconds.bones", "s", "wall time of repair and cuts; null where it was taken from disk"),
+    ROW(prepared, tissue_s, "seconds.tissue", "s", "wall time of the mesh; null where it was taken from disk"),
 };
 const record_table prepared_record_table = {
     .kind = "prepared", .title = "Record of gnathos prepare", RECORD_ROWS(record_rows)};

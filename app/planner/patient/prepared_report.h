@@ -5,7 +5,7 @@
 
 extern const record_table prepared_report_table; /* of what prepared_report writes */
 /* A new object. */
-json_t *prepared_report(const case_file *c, const anatomy *a, const tissue_report *r, double bones_s, double tissue_s);
+json_t *prepared_report(const case_file *c, const anatomy *a, const tissue_report *r);
 /* The warnings of a case that is prepared, to be told as gnathos check tells them. The caller frees the list. */
 issue_list prepared_warnings(const prepared *p, const case_file *c);
 

@@ -38,21 +38,25 @@ void pack_free(pack_file *p)
 bool pack_write(const pack_file *p, const char *path, err *e)
 {
     whole_file f;
-    if (!whole_file_open(path, &f, e)) return false;
+    return whole_file_open(path, &f, e) && pack_write_into(p, &f, e);
+}
+
+bool pack_write_into(const pack_file *p, whole_file *f, err *e)
+{
     content_hash *h = content_hash_start();
     char sum[HASH_TEXT_SIZE];
-    fwrite(magic, 1, sizeof magic, f.stream);
+    fwrite(magic, 1, sizeof magic, f->stream);
     for (int i = 0; i < p->count; i++) {
         const pack_entry *en = &p->entry[i];
-        fwrite(en->name, 1, sizeof en->name, f.stream);
-        fwrite(&en->size, 1, sizeof en->size, f.stream);
-        fwrite(en->bytes, 1, en->size, f.stream);
+        fwrite(en->name, 1, sizeof en->name, f->stream);
+        fwrite(&en->size, 1, sizeof en->size, f->stream);
+        fwrite(en->bytes, 1, en->size, f->stream);
         content_hash_bytes(h, en->name, sizeof en->name);
         content_hash_bytes(h, en->bytes, en->size);
     }
     content_hash_end(h, sum);
-    fwrite(sum, 1, sizeof sum, f.stream);
-    return whole_file_close(&f, e);
+    fwrite(sum, 1, sizeof sum, f->stream);
+    return whole_file_close(f, e);
 }
 
 bool pack_read(const char *path, pack_file *out, err *e)

@@ -1,7 +1,7 @@
 /* pack_file: named arrays in one file, for what is prepared once and reused on the same machine (native byte
  * order). A checksum at the end tells a torn or edited file from a whole one. */
 #pragma once
-#include "geometry/err.h"
+#include "geometry/write_whole.h"
 #include <stddef.h>
 #include <stdint.h>
 
@@ -26,5 +26,7 @@ void *pack_take(const pack_file *p, const char *name, size_t element, size_t *co
 void pack_free(pack_file *p);
 
 bool pack_write(const pack_file *p, const char *path, err *e) MUST_CHECK;
+/* Into a file that is open already, which it closes. */
+bool pack_write_into(const pack_file *p, whole_file *f, err *e) MUST_CHECK;
 /* Refuses (ERR_INPUT) what is not a whole pack file. */
 bool pack_read(const char *path, pack_file *out, err *e) MUST_CHECK;

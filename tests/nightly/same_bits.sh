@@ -1,0 +1,44 @@
+#!/bin/sh
+# same_bits.sh [RUNS [ELEMENT_MM [CLASS]]]: new, cut, prepare and predict of the synthetic class III head, RUNS (10) times
+# with 1, 2, 3 and 8 threads in turn and other bytes in fresh memory each time, write the same bytes. Every file of every
+# run is compared with that of the first; of outcome.json the wall and processor times are left out of that.
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+gnathos=${GNATHOS_BUILD:-$root/build}/app/gnathos
+runs=${1:-10} element=${2:-3} class=${3:-3} failed=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+timeless() { # removes what is a time from RUN/out/outcome.json, and says what
+    /usr/bin/python3 - "$1/out/outcome.json" <<'PY'
+import json, sys
+outcome = json.load(open(sys.argv[1]))
+del outcome["seconds"]
+json.dump(outcome, open(sys.argv[1], "w"), indent=1)
+PY
+}
+for run in $(seq "$runs"); do
+    jobs=$(echo 8 1 2 3 | cut -d ' ' -f $((run % 4 + 1)))
+    mkdir "$run"
+    export MALLOC_PERTURB_=$((run * 25 % 256))
+    "$gnathos" new "$run/case" --norm --class "$class" -j "$jobs" -q >"$run/new.txt"
+    sed 's/"osteotomies"/"tissue": { "element_mm": '"$element"' }, "osteotomies"/' "$run/case/case.json" >"$run/case.json"
+    mv "$run/case.json" "$run/case/case.json"
+    "$gnathos" cut "$run/case" -o "$run/cut" -j "$jobs" -q >"$run/cut.txt"
+    "$gnathos" prepare "$run/case" -j "$jobs" -q >"$run/prepare.txt"
+    "$gnathos" predict "$run/case" --plan "$root/cases/class$class/plan.json" -o "$run/out" --no-pictures -j "$jobs" -q >"$run/predict.txt"
+    timeless "$run"
+    rm "$run"/*.txt
+    if [ "$run" -eq 1 ]; then
+        echo "run 1, $jobs threads: $(find 1 -type f | wc -l) files"
+    elif diff -rq 1 "$run"; then
+        echo "run $run, $jobs threads: the same"
+        rm -r "${work:?}/$run"
+    else
+        echo "run $run, $jobs threads: DIFFERS"
+        failed=1
+        [ -z "${KEEP:-}" ] || cp -R . "$KEEP"
+    fi
+done
+[ $failed -eq 0 ] && echo "$runs runs: same bits"
+exit $failed
