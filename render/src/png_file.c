@@ -80,7 +80,7 @@ bool png_file_write(const image *im, const png_note *texts, int text_count, cons
     png_destroy_write_struct(&png, &info);
     free(chunk);
     free(rows);
-    if (!ok) {
+    if (!ok && !ferror(file.stream)) { /* else closing tells why it cannot be written */
         whole_file_abandon(&file);
         return err_set(e, ERR_RESOURCE, "%s: %s", path, said.code ? said.text : "libpng cannot be set up");
     }

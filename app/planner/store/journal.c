@@ -7,7 +7,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-enum { SUM_SIZE = 16, RECORD_MAX = 1 << 28 };
+enum { SUM_SIZE = 16 };
 
 typedef struct record_head {
     char sum[SUM_SIZE]; /* first hexadecimal digits of SHA-256 over the rest of the record */
@@ -54,11 +54,13 @@ static bool write_all(const journal *j, const void *bytes, size_t size, err *e)
 /* Reads whole records and drops what comes after the last one. */
 static bool read_records(journal *j, journal_reader *reader, void *context, err *e)
 {
-    off_t whole = sizeof magic + HASH_TEXT_SIZE;
+    off_t whole = sizeof magic + HASH_TEXT_SIZE, end = lseek(j->file, 0, SEEK_END);
+    if (lseek(j->file, whole, SEEK_SET) != whole)
+        return err_at(e, ERR_INPUT, j->path, 0, NULL, "cannot be read: %s", strerror(errno));
     for (;;) {
         record_head h;
         char sum[SUM_SIZE];
-        if (!read_all(j->file, &h, sizeof h) || h.size > RECORD_MAX) break;
+        if (!read_all(j->file, &h, sizeof h) || (off_t)h.size > end - whole) break;
         char *bytes = NEW_ARRAY(char, h.size);
         bool right = read_all(j->file, bytes, h.size);
         if (right) {
@@ -110,7 +112,12 @@ bool journal_open(const char *path, const char *key, bool force, journal_reader 
     if (ok && mine < 0 && !force)
         ok = err_at(e, ERR_INPUT, path, 0, NULL,
                     "is not the journal of this work: the case or the settings differ; --force starts anew");
-    if (ok) ok = mine > 0 ? read_records(&j, reader, context, e) : start(&j, key, e);
+    if (ok && mine > 0)
+        ok = read_records(&j, reader, context, e);
+    else if (ok && !start(&j, key, e)) {
+        journal_remove(&j); /* nothing is in it */
+        ok = false;
+    }
     if (ok)
         *out = j;
     else

@@ -51,6 +51,31 @@ static long process_in(const char *entry, const char *name)
     return strcmp(end, ".part") ? 0 : process;
 }
 
+char *temporary_target(const char *path)
+{
+    char *target = NEW_ARRAY(char, strlen(path) + 1), *to = target;
+    while (*path) {
+        size_t n = strcspn(path, "/");
+        char *part = (char *)mem_copy(path, n + 1, 1), *end = NULL;
+        part[n] = 0;
+        if (n > 6 && *part == '.' && !strcmp(part + n - 5, ".part")) {
+            part[n - 5] = 0;
+            end = strrchr(part + 1, '.');
+        }
+        if (end && end > part + 1 && end[1] && strspn(end + 1, "0123456789") == strlen(end + 1)) {
+            memcpy(to, part + 1, (size_t)(end - part - 1));
+            to += end - part - 1;
+        } else {
+            memcpy(to, path, n);
+            to += n;
+        }
+        free(part);
+        path += n;
+        while (*path == '/') *to++ = *path++;
+    }
+    return target;
+}
+
 static bool runs(long process) { return !kill((pid_t)process, 0) || errno == EPERM; }
 
 /* True if somebody makes it; else it is removed, unless a process of its number runs (which then has another task). */

@@ -4,6 +4,8 @@
 #include <stdbool.h>
 
 char *temporary_name(const char *path); /* of this process; the caller frees it */
+/* The path that a path in or of a hidden name will have once it is whole; the caller frees it. */
+char *temporary_target(const char *path);
 /* The lock of a file or folder just made; where the file system has no locks the number of the process alone counts.
  * The descriptor is kept open until the name is given up. */
 void temporary_lock(int descriptor);

@@ -11,7 +11,10 @@
 
 static bool cannot_write(const char *path, int number, err *e)
 {
-    return err_at(e, ERR_RESOURCE, path, 0, NULL, "cannot be written: %s", strerror(number));
+    char *target = temporary_target(path);
+    (void)err_at(e, ERR_RESOURCE, target, 0, NULL, "cannot be written: %s", strerror(number));
+    free(target);
+    return false;
 }
 
 /* Makes the new name itself survive a power cut. Some file systems cannot do this; the data are safe anyway.
