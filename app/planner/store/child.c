@@ -7,12 +7,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-static _Noreturn void work(child_body *body, void *context, size_t size, double cpu_limit_s, int to)
+static _Noreturn void work(child_body *body, void *context, size_t size, double cpu_limit_s, int to, pid_t parent)
 {
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* who waits may be killed: nobody wants the result then */
+    if (getppid() != parent) _exit(1);
     struct rlimit no_core = {0, 0}, time = {(rlim_t)ceil(cpu_limit_s), (rlim_t)ceil(cpu_limit_s) + 5};
     setrlimit(RLIMIT_CORE, &no_core);
     setrlimit(RLIMIT_CPU, &time);
@@ -52,10 +55,10 @@ child_end child_run(const task *watch, child_body *body, void *context, void *re
     *use = (child_use){0};
     fflush(NULL);
     if (pipe(way)) return CHILD_CRASHED;
-    pid_t child = fork();
+    pid_t parent = getpid(), child = fork();
     if (child == 0) {
         close(way[0]);
-        work(body, context, size, cpu_limit_s, way[1]);
+        work(body, context, size, cpu_limit_s, way[1], parent);
     }
     close(way[1]);
     char *got = NEW_ARRAY(char, size);
