@@ -193,7 +193,7 @@ static void broken_files_are_refused_by_name(void **state)
         {"mesh.vtk", "x", "mesh.vtk: unknown kind of mesh file"},
         {"noextension", "x", "noextension: unknown kind"},
         {"empty.ply", "", "empty.ply: the file is empty"},
-        {"text.ply", "hello\n", "text.ply: is not a complete PLY"},
+        {"text.ply", "hello\n", "text.ply:1: is not a PLY file that is read: it does not begin with ply"},
         {"none.ply",
          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
          "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",

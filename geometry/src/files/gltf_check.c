@@ -1,4 +1,5 @@
 #include "geometry/src/files/gltf_check.h"
+#include "geometry/src/files/gltf_sizes.h"
 #include "geometry/input_file.h"
 #include "geometry/json_file.h"
 #include "geometry/mem.h"
@@ -183,7 +184,10 @@ bool gltf_check(const char *path, const char *node, uint8_t **keep, int *count, 
               .meshes = json_object_get(f.root, "meshes"),
               .accessors = json_object_get(f.root, "accessors"),
               .keep = NEW_ARRAY(uint8_t, 1)};
-    bool good = check_scene(&w, f.root, e);
+    int64_t size = 0;
+    FILE *in = input_file_open(path, INT64_MAX, &size, e);
+    bool good = in && check_scene(&w, f.root, e) && gltf_sizes_check(path, f.root, size, e);
+    if (in) fclose(in);
     json_file_free(&f);
     if (!good) {
         free(w.keep);

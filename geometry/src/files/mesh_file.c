@@ -4,6 +4,7 @@
 #include "geometry/src/files/file_name.h"
 #include "geometry/src/files/gltf_check.h"
 #include "geometry/src/files/join_corners.h"
+#include "geometry/src/files/ply_check.h"
 #include "geometry/src/files/read_mesh.h"
 #include <ctype.h>
 #include <math.h>
@@ -185,6 +186,7 @@ bool mesh_read_surface(const char *file_and_node, mesh_space space, surface *out
         return err_at(e, ERR_INPUT, file_and_node, 0, NULL, "is a path of more than %zu bytes", sizeof path - 1);
     if (!find_format(path, &format, e) || !find_space_tag(path, format, &r.tagged, &r.ras, e)) return false;
     if (!r.tagged) r.ras = space == MESH_SPACE_RAS;
+    if (format == FORMAT_PLY && !ply_check(path, e)) return false;
     if (format == FORMAT_PLY || format == FORMAT_OFF) {
 #ifdef GNATHOS_CGAL
         if (!read_mesh_polygons(path, &p, e)) return false;

@@ -1,4 +1,5 @@
 /* The one file that includes libnifti2. NIfTI counts x to the right and y to the front: both change sign. */
+#include "geometry/src/files/file_name.h"
 #include "geometry/src/files/read_volume.h"
 #include <math.h>
 #include <nifti2_io.h>
@@ -116,12 +117,13 @@ static bool from_nifti(const nifti_image *n, const char *path, volume_form form,
 bool read_volume_nifti(const char *path, volume_form form, volume *out, err *e)
 {
     nifti_set_debug_level(0); /* it prints to stderr otherwise */
-    nifti_image *n = nifti_image_read(path, 1);
-    if (!n || !n->data) {
-        if (n) nifti_image_free(n);
-        return err_at(e, ERR_INPUT, path, 0, NULL, "is not a complete NIfTI file");
-    }
-    bool good = from_nifti(n, path, form, out, e);
-    nifti_image_free(n);
+    nifti_image *n = nifti_image_read(path, 0);
+    bool whole = n && n->nvox > 0 && n->nbyper > 0 && n->nvox <= INT64_MAX / n->nbyper;
+    bool good =
+        !whole || read_volume_room(path, n->nvox * n->nbyper, file_name_ends(path, ".gz") ? MOST_DEFLATED : 1, e);
+    whole = whole && good && !nifti_image_load(n) && n->data;
+    if (good && !whole) good = err_at(e, ERR_INPUT, path, 0, NULL, "is not a complete NIfTI file");
+    good = good && from_nifti(n, path, form, out, e);
+    if (n) nifti_image_free(n);
     return good;
 }

@@ -121,7 +121,6 @@ static bool from_nrrd(const Nrrd *n, const char *path, volume *v, err *e)
     if (n->dim != 3 && (n->dim != 4 || n->axis[0].kind != nrrdKindList))
         return err_at(e, ERR_INPUT, path, 0, "dimension", "%u-dimensional data that are not layers of a segmentation",
                       n->dim);
-    if (n->type == nrrdTypeBlock) return err_at(e, ERR_INPUT, path, 0, "type", "blocks are not read");
     if (!find_space(n, path, sign, e)) return false;
     for (unsigned a = 0; a < 3; a++)
         for (unsigned c = 0; c < 3; c++) {
@@ -147,10 +146,44 @@ static bool from_nrrd(const Nrrd *n, const char *path, volume *v, err *e)
     return read_segments(n, path, v, e);
 }
 
+/* The bytes of voxels that a header promises, those of a text at least; -1: too many to count. */
+static int64_t promised_bytes(const Nrrd *n, bool text)
+{
+    int64_t bytes = text ? 1 : (int64_t)nrrdElementSize(n);
+    for (unsigned a = 0; a < n->dim; a++) {
+        if (n->axis[a].size > (size_t)(INT64_MAX / bytes)) return -1;
+        bytes *= (int64_t)n->axis[a].size;
+    }
+    return bytes;
+}
+
+/* teem makes room for what the header promises before it reads a voxel. */
+static bool check_room(const char *path, err *e)
+{
+    Nrrd *n = nrrdNew();
+    NrrdIoState *io = nrrdIoStateNew();
+    io->skipData = AIR_TRUE;
+    bool good = !nrrdLoad(n, path, io) || refuse_teem(path, e);
+    if (good && n->type == nrrdTypeBlock) good = err_at(e, ERR_INPUT, path, 0, "type", "blocks are not read");
+    if (good && (io->dataFNArr->len || io->dataFNFormat))
+        good = err_at(e, ERR_INPUT, path, 0, "data file", "its voxels lie in another file: save both as one .nrrd");
+    if (good) {
+        int64_t bytes = promised_bytes(n, io->encoding == nrrdEncodingAscii);
+        int64_t most = io->encoding == nrrdEncodingGzip    ? MOST_DEFLATED
+                       : io->encoding == nrrdEncodingBzip2 ? 1 << 20
+                                                           : 1;
+        good = bytes < 0 ? err_at(e, ERR_INPUT, path, 0, "sizes", "are too large")
+                         : read_volume_room(path, bytes, most, e);
+    }
+    nrrdIoStateNix(io);
+    nrrdNuke(n);
+    return good;
+}
+
 bool read_volume_nrrd(const char *path, volume *out, err *e)
 {
     Nrrd *n = nrrdNew();
-    bool good = nrrdLoad(n, path, NULL) ? refuse_teem(path, e) : from_nrrd(n, path, out, e);
+    bool good = check_room(path, e) && (nrrdLoad(n, path, NULL) ? refuse_teem(path, e) : from_nrrd(n, path, out, e));
     nrrdNuke(n);
     return good;
 }

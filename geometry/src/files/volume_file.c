@@ -32,6 +32,19 @@ bool read_volume_allocate(const char *path, const int64_t size[3], int64_t layer
     return true;
 }
 
+bool read_volume_room(const char *path, int64_t bytes, int64_t most, err *e)
+{
+    int64_t size = 0;
+    FILE *in = input_file_open(path, INT64_MAX, &size, e);
+    if (!in) return false;
+    fclose(in);
+    return bytes / most <= size ||
+           err_at(e, ERR_INPUT, path, 0, NULL,
+                  "is not complete: its header promises %lld bytes of voxels, the file has %lld "
+                  "bytes%s",
+                  (long long)bytes, (long long)size, most > 1 ? ", compressed" : "");
+}
+
 bool read_volume_round(double number, int16_t *out)
 {
     double nearest = floor(number + 0.5);
