@@ -10,7 +10,6 @@ gnathos = os.path.abspath(sys.argv[1])
 chance = random.Random(int(sys.argv[4]) if len(sys.argv) > 4 else 1)
 libc = ctypes.CDLL(None, use_errno=True)
 MODIFY, CREATE, MOVED_TO = 2, 0x100, 0x80
-TIMES = ("seconds", "cpu_seconds", "memory_MB")
 
 
 class watch:
@@ -42,7 +41,7 @@ class watch:
 
 def timeless(value):
     if isinstance(value, dict):
-        return {k: timeless(v) for k, v in value.items() if k not in TIMES}
+        return {k: timeless(v) for k, v in value.items() if k not in ("seconds", "cpu_seconds", "memory_MB") and k[-2:] != "_s"}
     return [timeless(v) for v in value] if isinstance(value, list) else value
 
 

@@ -9,11 +9,14 @@ runs=${1:-10} element=${2:-3} class=${3:-3} failed=0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-timeless() { # removes what is a time from RUN/out/outcome.json, and says what
+timeless() { # takes what is a time out of RUN/out/outcome.json: the object "seconds", and numbers named ..._s
     /usr/bin/python3 - "$1/out/outcome.json" <<'PY'
 import json, sys
-outcome = json.load(open(sys.argv[1]))
-del outcome["seconds"]
+def timeless(value):
+    if isinstance(value, dict):
+        return {k: timeless(v) for k, v in value.items() if k != "seconds" and not k.endswith("_s")}
+    return [timeless(v) for v in value] if isinstance(value, list) else value
+outcome = timeless(json.load(open(sys.argv[1])))
 json.dump(outcome, open(sys.argv[1], "w"), indent=1)
 PY
 }
