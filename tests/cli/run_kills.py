@@ -3,7 +3,7 @@
 Two commands that write into one place take turns, so that an earlier result stands whenever one is killed. Right is:
 afterwards the place holds the earlier result whole or the new one whole, no process goes on, the next run ends well, and
 nothing else is left. Without a CASE it is stress --force, four times; with one (a folder) KILLS (60) of predict --force,
-audit --force, prepare and study. Prints a table. Seconds in a result are not compared."""
+audit --force, prepare and study. Prints a table. Times and memory in a record are not compared."""
 import ctypes, hashlib, json, os, random, select, shutil, signal, struct, subprocess, sys, tempfile, time
 
 gnathos = os.path.abspath(sys.argv[1])
@@ -41,7 +41,7 @@ class watch:
 
 def timeless(value):
     if isinstance(value, dict):
-        return {k: timeless(v) for k, v in value.items() if k not in ("seconds", "cpu_seconds", "memory_MB") and k[-2:] != "_s"}
+        return {k: timeless(v) for k, v in value.items() if not k.endswith(("seconds", "_s", "memory_MB"))}
     return [timeless(v) for v in value] if isinstance(value, list) else value
 
 

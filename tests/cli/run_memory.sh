@@ -18,7 +18,8 @@ run() { # PLACE ARGUMENT...
         "$gnathos" "$@" >stdout 2>stderr </dev/null
 }
 how() { # what became of the last run, in two words
-    if [ "$1" -eq 137 ]; then echo "hangs"
+    if [ "$1" -eq 0 ] && [ "$(cat count)" -lt "$place" ]; then echo "not reached" # the number varies by a few
+    elif [ "$1" -eq 137 ]; then echo "hangs"
     elif [ "$1" -gt 128 ]; then echo "crashes"
     elif [ "$1" -ne 7 ]; then echo "status $1"
     elif ! tail -1 stderr | grep -q '^gnathos: [^:]*: out of memory ([0-9]* bytes'; then echo "says otherwise: $(tail -1 stderr)"
@@ -43,7 +44,7 @@ series() { # NAME ARGUMENT...
     done
     echo "$name: $all allocations, each $by-th failed once, $(wc -l <ends) runs:"
     sort ends | uniq -c
-    grep -qvx right ends && failed=1
+    grep -qvxE "right|not reached" ends && failed=1
     rm ends
 }
 

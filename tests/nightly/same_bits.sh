@@ -1,7 +1,7 @@
 #!/bin/sh
 # same_bits.sh [RUNS [ELEMENT_MM [CLASS]]]: new, cut, prepare and predict of the synthetic class III head, RUNS (10) times
 # with 1, 2, 3 and 8 threads in turn and other bytes in fresh memory each time, write the same bytes. Every file of every
-# run is compared with that of the first; of outcome.json the wall and processor times are left out of that.
+# run is compared with that of the first; of outcome.json times and the peak of memory are left out of that.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 gnathos=${GNATHOS_BUILD:-$root/build}/app/gnathos
@@ -9,12 +9,12 @@ runs=${1:-10} element=${2:-3} class=${3:-3} failed=0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-timeless() { # takes what is a time out of RUN/out/outcome.json: the object "seconds", and numbers named ..._s
+timeless() { # takes out of RUN/out/outcome.json: the object "seconds", numbers named ..._s, and peak_memory_MB
     /usr/bin/python3 - "$1/out/outcome.json" <<'PY'
 import json, sys
 def timeless(value):
     if isinstance(value, dict):
-        return {k: timeless(v) for k, v in value.items() if k != "seconds" and not k.endswith("_s")}
+        return {k: timeless(v) for k, v in value.items() if not k.endswith(("seconds", "_s", "memory_MB"))}
     return [timeless(v) for v in value] if isinstance(value, list) else value
 outcome = timeless(json.load(open(sys.argv[1])))
 json.dump(outcome, open(sys.argv[1], "w"), indent=1)
