@@ -79,6 +79,8 @@ static void check(run_context *r, struct argp_state *state)
     if (!o->one_plan && !GNATHOS_WITH_SIM) r->need = 0;
 }
 
+static const int often[] = {KEY_LINE, KEY_PAIR, KEY_BOX, 0};
+
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
     static const char *const name[] = {[KEY_NO_PICTURES - KEY_OWN] = "--no-pictures",
@@ -127,5 +129,6 @@ const verb verb_audit = {.arguments = "CASE",
                          .own_size = sizeof(audit_options),
                          .defaults = defaults,
                          .parse = parse,
+                         .often = often,
                          .early = early,
                          .run = run};

@@ -76,11 +76,7 @@ static void add(import_words *w, const char *arg, struct argp_state *state)
     w->word[w->count++] = arg;
 }
 
-static void once(const char **to, const char *arg, const char *what, struct argp_state *state)
-{
-    if (*to) argp_error(state, "--%s is given twice: %s and %s; which is meant?", what, *to, arg);
-    *to = arg;
-}
+static const int often[] = {KEY_SKIN, KEY_SKULL, KEY_MANDIBLE, KEY_UPPER, KEY_LOWER, KEY_LABELS, 0};
 
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
@@ -91,11 +87,11 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_MANDIBLE: add(&p->from[CASE_MANDIBLE], arg, state); return 0;
     case KEY_UPPER: add(&p->from[CASE_UPPER_TEETH], arg, state); return 0;
     case KEY_LOWER: add(&p->from[CASE_LOWER_TEETH], arg, state); return 0;
-    case KEY_LANDMARKS: once(&p->landmarks, arg, "landmarks", state); return 0;
-    case KEY_NAME: once(&p->name, arg, "name", state); return 0;
+    case KEY_LANDMARKS: p->landmarks = arg; return 0;
+    case KEY_NAME: p->name = arg; return 0;
     case KEY_LABELS: add(&p->labels, arg, state); return 0;
-    case KEY_PRESET: once(&p->preset, arg, "preset", state); return 0;
-    case KEY_CT: once(&p->ct, arg, "ct", state); return 0;
+    case KEY_PRESET: p->preset = arg; return 0;
+    case KEY_CT: p->ct = arg; return 0;
     case KEY_HU:
         p->skin_hu = number(arg, -1000, 30000, "skin-hu", state);
         p->skin_hu_given = true;
@@ -191,4 +187,5 @@ const verb verb_import = {.arguments = "-o CASE",
                           .own_size = sizeof(import_params),
                           .defaults = defaults,
                           .parse = parse,
+                          .often = often,
                           .run = run};

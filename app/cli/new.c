@@ -74,9 +74,12 @@ static void set_measure(new_options *in, const char *arg, struct argp_state *sta
         else
             argp_error(state, "--set %s: no such measure; --measures lists them", name);
     }
+    if (in->p.is_set[id]) argp_error(state, "--set %s is given twice; which is meant?", name);
     in->p.set[id] = number(equals + 1, name, state);
     in->p.is_set[id] = true;
 }
+
+static const int often[] = {KEY_SET, 0};
 
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
@@ -188,4 +191,5 @@ const verb verb_new = {.arguments = "CASE",
                        .own_size = sizeof(new_options),
                        .defaults = defaults,
                        .parse = parse,
+                       .often = often,
                        .run = run};

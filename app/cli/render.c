@@ -73,6 +73,8 @@ static void take(bool ok, const err *e, struct argp_state *state)
     if (!ok) argp_error(state, "%s", e->text);
 }
 
+static const int often[] = {KEY_SHOW, KEY_VIEW, 0};
+
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
     render_options *in = r->own;
@@ -257,4 +259,5 @@ const verb verb_render = {.arguments = "OUT",
                           .own_size = sizeof(render_options),
                           .defaults = defaults,
                           .parse = parse,
+                          .often = often,
                           .run = run};

@@ -18,6 +18,19 @@ static error_t take_argument(char *arg, run_context *r, struct argp_state *state
     return 0;
 }
 
+/* A second value would make the first one vanish without a word. */
+static void take_once(int key, const char *arg, run_context *r, struct argp_state *state)
+{
+    if (!arg || key <= 0 || key >= KEY_MOST) return; /* a flag, an argument, a stage of argp */
+    for (const int *k = r->verb->often; k && *k; k++)
+        if (*k == key) return;
+    const struct argp_option *o = r->verb->options;
+    while (o->key != key) o++;
+    if (r->given[key])
+        argp_error(state, "--%s is given twice: %s and %s; which is meant?", o->name, r->given[key], arg);
+    r->given[key] = arg;
+}
+
 static error_t parse(int key, char *arg, struct argp_state *state)
 {
     run_context *r = state->input;
@@ -25,6 +38,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     if (key == ARGP_KEY_INIT) state->child_inputs[0] = &r->common;
     if (key == ARGP_KEY_END && v->missing_plan && !r->plan_path) argp_error(state, "%s", v->missing_plan);
     if (key == ARGP_KEY_END && v->missing_output && !r->out_path) argp_error(state, "%s", v->missing_output);
+    take_once(key, arg, r, state);
     error_t own = v->parse ? v->parse(key, arg, r, state) : ARGP_ERR_UNKNOWN;
     if (own != ARGP_ERR_UNKNOWN) return own;
     switch (key) {

@@ -26,6 +26,8 @@ typedef enum verb_need {
     NEED_PREPARED = 64      /* what depends on the case alone */
 } verb_need;
 
+enum { KEY_CACHE = 300, KEY_OWN, KEY_MOST = 340 }; /* of options without a letter; a verb's own from KEY_OWN on */
+
 struct verb;
 typedef struct run_context {
     const struct verb *verb;
@@ -33,6 +35,7 @@ typedef struct run_context {
     /* from the command line */
     command_options common;
     const char *argument[2], *plan_path, *out_path, *cache;
+    const char *given[KEY_MOST]; /* by key, what an option was given that has a value */
     bool force;
     void *own; /* options of the verb */
     /* opened, and freed after run() */
@@ -60,12 +63,13 @@ typedef struct verb {
     void (*defaults)(void *own); /* NULL: zeros */
     /* The verb's own options and checks, by the rules of argp; asked before OPTION_PLAN and the like. NULL: none. */
     error_t (*parse)(int key, char *arg, run_context *r, struct argp_state *state);
+    const int
+        *often; /* keys of options with a value that may be given often, 0 at the end; all others once. NULL: none */
     bool (*early)(run_context *r, err *e); /* what can be told once case and landmarks are read; NULL: nothing */
     bool (*run)(run_context *r, err *e);
 } verb;
 
 /* Rows of `options` that the runner reads. */
-enum { KEY_CACHE = 300, KEY_OWN };
 #define OPTION_PLAN(help, group)                                                                                       \
     {                                                                                                                  \
         "plan", 'p', "FILE", 0, help, group                                                                            \

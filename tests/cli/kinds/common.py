@@ -51,7 +51,7 @@ def accepted(name, words, *patterns, cwd=work):
 
 
 def one_message_a_line(err):
-    return all(line.startswith(("gnathos", "Try `gnathos")) for line in err.splitlines()) and not re.search(r"[\x00-\x09\x0b-\x1f\x7f]", err)
+    return all(line.startswith(("gnathos", "Try `gnathos", "information.")) for line in err.splitlines()) and not re.search(r"[\x00-\x09\x0b-\x1f\x7f]", err)
 
 
 def snapshot(folder):
