@@ -66,6 +66,12 @@ def edit(path, *pairs):
     path.write_text(text)
 
 
+def add_points(path, **points):
+    """Adds landmarks to markups; B_s stands for B'."""
+    edit(path, (' { "label": "Po_L"', "".join(f' {{ "label": "{name.replace("_s", chr(39))}", "position": {list(xyz)} }},\n ' for name, xyz in points.items())
+               + ' { "label": "Po_L"'))
+
+
 def finish():
     shutil.rmtree(work, ignore_errors=True)
     print("\n".join(failures))
