@@ -16,7 +16,12 @@ FILE *input_file_open(const char *path, int64_t most_bytes, int64_t *size, err *
 /* The same for text, at most INPUT_TEXT_BYTES; a byte order mark of UTF-8, as some editors write it, is skipped.
  * Refuses UTF-16 too. */
 FILE *input_file_open_text(const char *path, err *e);
-/* Refuses what input_file_open refuses; for readers that open the file themselves. */
+/* Whether a text begins with a byte order mark: refuses UTF-16 (ERR_INPUT, with path); *utf8 is set where three bytes
+ * are to be skipped. */
+bool input_text_mark(const char *text, size_t size, const char *path, bool *utf8, err *e) MUST_CHECK;
+/* The same for readers that cannot skip it: refuses any mark. */
+bool input_text_unmarked(const char *text, size_t size, const char *path, err *e) MUST_CHECK;
+/* Refuses what input_file_open and input_text_unmarked refuse; for readers that open the file themselves. */
 bool input_file_check(const char *path, int64_t most_bytes, err *e) MUST_CHECK;
 
 #ifdef __cplusplus

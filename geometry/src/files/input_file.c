@@ -45,27 +45,48 @@ FILE *input_file_open(const char *path, int64_t most_bytes, int64_t *size, err *
     return in;
 }
 
+/* One of the first two signs is below 256, as in a text that begins in any European script. */
+static bool is_utf16(const char *text, size_t size)
+{
+    bool little = size >= 4 && !memcmp(text, "\xFF\xFE", 2), big = size >= 4 && !memcmp(text, "\xFE\xFF", 2);
+    return (little && !text[3]) || (big && !text[2]);
+}
+
+bool input_text_mark(const char *text, size_t size, const char *path, bool *utf8, err *e)
+{
+    *utf8 = size >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3);
+    return !is_utf16(text, size) ||
+           err_at(e, ERR_INPUT, path, 0, NULL, "is UTF-16 text, as its byte order mark says; save it as UTF-8");
+}
+
+bool input_text_unmarked(const char *text, size_t size, const char *path, err *e)
+{
+    bool utf8;
+    return input_text_mark(text, size, path, &utf8, e) &&
+           (!utf8 || err_at(e, ERR_INPUT, path, 0, NULL,
+                            "begins with a byte order mark, which is no part of such files; save it without"));
+}
+
 FILE *input_file_open_text(const char *path, err *e)
 {
-    static const unsigned char utf8[3] = {0xEF, 0xBB, 0xBF};
-    unsigned char start[3] = {0};
+    char start[4] = {0};
+    bool utf8;
     FILE *in = input_file_open(path, INPUT_TEXT_BYTES, NULL, e);
     if (!in) return NULL;
     size_t n = fread(start, 1, sizeof start, in);
-    if (n >= 2 && ((start[0] == 0xFF && start[1] == 0xFE) || (start[0] == 0xFE && start[1] == 0xFF))) {
-        err_at(e, ERR_INPUT, path, 0, NULL, "is UTF-16 text, as its byte order mark says; save it as UTF-8");
-        fclose(in);
-        return NULL;
-    }
-    if (n < sizeof utf8 || memcmp(start, utf8, sizeof utf8)) rewind(in);
-    return in;
+    bool ok = input_text_mark(start, n, path, &utf8, e) &&
+              (!fseek(in, utf8 ? 3 : 0, SEEK_SET) || err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read"));
+    if (ok) return in;
+    fclose(in);
+    return NULL;
 }
 
 bool input_file_check(const char *path, int64_t most_bytes, err *e)
 {
-    int64_t bytes;
-    int file = open_regular(path, most_bytes, &bytes, e);
-    if (file < 0) return false;
-    close(file);
-    return true;
+    char start[4] = {0};
+    FILE *in = input_file_open(path, most_bytes, NULL, e);
+    if (!in) return false;
+    size_t n = fread(start, 1, sizeof start, in);
+    fclose(in);
+    return input_text_unmarked(start, n, path, e);
 }

@@ -19,8 +19,9 @@ void json_file_free(json_file *f)
 
 bool json_file_parse(const char *text, size_t size, const char *path, json_file *out, err *e)
 {
-    static const char mark[] = "\xEF\xBB\xBF"; /* byte order mark, as some editors write it */
-    if (size >= 3 && !memcmp(text, mark, 3)) {
+    bool marked;
+    if (!input_text_mark(text, size, path, &marked, e)) return false;
+    if (marked) { /* as some editors write it */
         text += 3;
         size -= 3;
     }

@@ -38,6 +38,7 @@ static bool find_space_tag(const char *path, mesh_format format, bool *tagged, b
     char head[16385];
     size_t n = fread(head, 1, sizeof head - 1, in);
     fclose(in);
+    if (!input_text_unmarked(head, n, path, e)) return false;
     *tagged = *ras = false;
     if (format == FORMAT_STL && n > 80) n = 80;
     for (size_t i = 0; i < n; i++)
