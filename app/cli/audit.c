@@ -38,13 +38,13 @@ static double read_number(const char *name, const char *arg, struct argp_state *
     char *end;
     double x = strtod(arg, &end);
     if (end == arg || *end || !(x >= 0.001 && x <= 5))
-        argp_error(state, "%s %s: must be a number from 0.001 to 5", name, arg);
+        command_usage(state, "%s %s: must be a number from 0.001 to 5", name, arg);
     return x;
 }
 
 static void ask_for(audit_options *s, const char *word, int axes, struct argp_state *state)
 {
-    if (s->word_count == AUDIT_WORDS_MAX) argp_error(state, "more than %d lines, pairs and boxes", AUDIT_WORDS_MAX);
+    if (s->word_count == AUDIT_WORDS_MAX) command_usage(state, "more than %d lines, pairs and boxes", AUDIT_WORDS_MAX);
     s->axis_count[s->word_count] = axes;
     s->word[s->word_count++] = word;
 }
@@ -69,11 +69,12 @@ static bool take_option(int key, char *arg, audit_options *o, struct argp_state 
 static void check(run_context *r, struct argp_state *state)
 {
     audit_options *o = r->own;
-    if (r->plan_path && o->named) argp_error(state, "%s has no meaning with --plan, which judges one plan", o->named);
+    if (r->plan_path && o->named)
+        command_usage(state, "%s has no meaning with --plan, which judges one plan", o->named);
     if (!r->plan_path && !r->out_path)
-        argp_error(state, "name a folder for the results with -o, or a plan with --plan");
+        command_usage(state, "name a folder for the results with -o, or a plan with --plan");
     if (o->tolerance > o->spacing)
-        argp_error(state, "--tolerance %g is wider than --spacing %g", o->tolerance, o->spacing);
+        command_usage(state, "--tolerance %g is wider than --spacing %g", o->tolerance, o->spacing);
     o->one_plan = r->plan_path != NULL;
     if (!o->one_plan) r->plan_path = o->around;
     if (!o->one_plan && !GNATHOS_WITH_SIM) r->need = 0;

@@ -174,7 +174,7 @@ static bool print(const run_context *r, const audit *a, err *e)
 {
     if (!r->common.json) {
         if (!bounds_print(a, e)) return false;
-        printf("Results in %s\n", r->out_path);
+        printf("Results in %s\n", command_shown(r->out_path));
         return true;
     }
     json_t *record;

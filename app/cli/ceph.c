@@ -15,7 +15,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
 {
     ceph_options *o = r->own;
     if (key != 's') return ARGP_ERR_UNKNOWN;
-    if (strcmp(arg, "f") != 0 && strcmp(arg, "m") != 0) argp_error(state, "--sex is f or m, not %s", arg);
+    if (strcmp(arg, "f") != 0 && strcmp(arg, "m") != 0) command_usage(state, "--sex is f or m, not %s", arg);
     o->sex = *arg;
     return 0;
 }

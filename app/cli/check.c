@@ -9,7 +9,7 @@ static const struct argp_option options[] = {{"plan", 'p', "PLAN", 0, "Check thi
 
 static void print_plain(const case_file *c, const check_found *found, const plan_file *plan, const issue_list *issues)
 {
-    printf("case %s (%s)\n", c->name, c->path);
+    printf("case %s (%s)\n", c->name, command_shown(c->path));
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)
         if (found->mesh[i].vertex_count)
             printf("  %-12s %8d vertices %8d triangles %6d open edges %7.1f mm\n", case_surface_name((case_surface)i),
@@ -17,7 +17,7 @@ static void print_plain(const case_file *c, const check_found *found, const plan
                    found->diagonal_mm[i]);
     printf("  landmarks    %8d points, Frankfort plane within %.2f mm\n", found->points.count,
            found->frame_residual_mm);
-    if (plan) printf("plan %s (%s)\n", plan->name, plan->path);
+    if (plan) printf("plan %s (%s)\n", plan->name, command_shown(plan->path));
     printf("no errors, %d warnings\n", issue_count(issues, ISSUE_WARNING));
 }
 

@@ -30,7 +30,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case 'j':
         n = strtol(arg, &end, 10);
         if (end == arg || *end || n < 1 || n > THREADS_MAX)
-            argp_error(state, "-j %s: must be a whole number from 1 to %d", arg, THREADS_MAX);
+            command_usage(state, "-j %s: must be a whole number from 1 to %d", arg, THREADS_MAX);
         else
             parallel_set_threads((int)n);
         return 0;
@@ -40,7 +40,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
             o->progress = (command_progress)i;
             return 0;
         }
-        argp_error(state, "--progress=%s: must be auto, plain, json or none", arg);
+        command_usage(state, "--progress=%s: must be auto, plain, json or none", arg);
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -48,6 +48,28 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 
 static const struct argp common = {options, parse, NULL, NULL, NULL, NULL, NULL};
 const struct argp_child command_common[] = {{&common, 0, "", -2}, {0}};
+
+void command_usage(const struct argp_state *state, const char *fmt, ...)
+{
+    char text[2048];
+    va_list args;
+    va_start(args, fmt);
+    vsnprintf(text, sizeof text, fmt, args);
+    va_end(args);
+    err_printable(text, sizeof text);
+    argp_error(state, "%s", text);
+}
+
+const char *command_shown(const char *text)
+{
+    enum { KEPT = 4 };
+    static char shown[KEPT][4096];
+    static int last;
+    last = (last + 1) % KEPT;
+    snprintf(shown[last], sizeof shown[last], "%s", text);
+    err_printable(shown[last], sizeof shown[last]);
+    return shown[last];
+}
 
 int command_fail(const err *e)
 {

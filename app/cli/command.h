@@ -16,6 +16,10 @@ typedef struct command_options {
 /* argp child for --json, -q, --progress and -j N (which is applied at once); its input is a command_options. */
 extern const struct argp_child command_common[];
 
+/* argp_error, of one line whatever it quotes. Does not return while a command line is read. */
+void command_usage(const struct argp_state *state, const char *fmt, ...) PRINTF_LIKE(2, 3);
+/* A path or name as it may be shown: control bytes are \xNN. Good until four more were asked for. */
+const char *command_shown(const char *text);
 /* "gnathos: text" on stderr; returns the exit status. */
 int command_fail(const err *e);
 /* A line of advice or warning on stderr, unless -q. */

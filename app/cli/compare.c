@@ -40,10 +40,10 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_RANGE:
         o->range_mm = strtod(arg, &end);
         if (end == arg || *end || !(o->range_mm > 0) || o->range_mm > 1000)
-            argp_error(state, "--range must lie above 0 and up to 1000 mm, got %s", arg);
+            command_usage(state, "--range must lie above 0 and up to 1000 mm, got %s", arg);
         return 0;
     case ARGP_KEY_END:
-        if (!r->argument[1]) argp_error(state, "name a predicted and an actual face");
+        if (!r->argument[1]) command_usage(state, "name a predicted and an actual face");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

@@ -81,7 +81,7 @@ static void print_plain(const anatomy *a, const char *target)
         printf("  island of %.1f mm3 from the %s: %s the %s, %.2f mm away\n", f->volume_mm3, segment_name(f->from),
                f->from == f->to ? "stays with" : "goes to", segment_name(f->to), f->gap_mm);
     }
-    printf("%s\n", target);
+    printf("%s\n", command_shown(target));
 }
 
 static bool write_all(const case_file *c, const anatomy *a, const json_t *report, output_dir *d, err *e)

@@ -32,11 +32,11 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case 'f':
         for (int i = 0; i < FORMAT_COUNT; i++)
             if (!strcmp(arg, formats[i])) o->format = formats[i];
-        if (!o->format) argp_error(state, "--format %s: must be glb, obj, ply, stl or vtp", arg);
+        if (!o->format) command_usage(state, "--format %s: must be glb, obj, ply, stl or vtp", arg);
         return 0;
     case ARGP_KEY_END:
-        if (!o->format) argp_error(state, "name a format with --format");
-        if (!r->out_path) argp_error(state, "name the folder of results with -o");
+        if (!o->format) command_usage(state, "name a format with --format");
+        if (!r->out_path) command_usage(state, "name the folder of results with -o");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -159,7 +159,7 @@ static bool run(run_context *r, err *e)
     if (ok && r->common.json)
         command_print_record(record_json(&made_record_table, &made));
     else if (ok && !r->common.quiet)
-        printf("Results in %s\n", r->out_path);
+        printf("Results in %s\n", command_shown(r->out_path));
     json_decref(files);
     return ok;
 }

@@ -27,7 +27,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_SCHEMA: in->schema = true; return 0;
     case ARGP_KEY_END:
         if ((in->record || in->schema) && !r->argument[0])
-            argp_error(state, "name a kind of records (gnathos help records lists them)");
+            command_usage(state, "name a kind of records (gnathos help records lists them)");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

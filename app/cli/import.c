@@ -65,14 +65,14 @@ static double number(const char *arg, double low, double high, const char *what,
     char *end;
     double value = strtod(arg, &end);
     if (end == arg || *end || !(value >= low && value <= high))
-        argp_error(state, "--%s=%s: must be a number from %g to %g", what, arg, low, high);
+        command_usage(state, "--%s=%s: must be a number from %g to %g", what, arg, low, high);
     return value;
 }
 
 static void add(import_words *w, const char *arg, struct argp_state *state)
 {
     if (w->count == IMPORT_TIMES_MOST)
-        argp_error(state, "\"%s\": an option may be given %d times", arg, IMPORT_TIMES_MOST);
+        command_usage(state, "\"%s\": an option may be given %d times", arg, IMPORT_TIMES_MOST);
     w->word[w->count++] = arg;
 }
 
@@ -104,7 +104,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
         else if (!strcmp(arg, "ras"))
             p->space = MESH_SPACE_RAS;
         else
-            argp_error(state, "--frame=%s: must be lps or ras", arg);
+            command_usage(state, "--frame=%s: must be lps or ras", arg);
         return 0;
     case KEY_FORM:
         if (!strcmp(arg, "sform"))
@@ -112,17 +112,17 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
         else if (!strcmp(arg, "qform"))
             p->form = VOLUME_FORM_QFORM;
         else
-            argp_error(state, "--nifti-form=%s: must be sform or qform", arg);
+            command_usage(state, "--nifti-form=%s: must be sform or qform", arg);
         return 0;
     case KEY_UNIT:
         p->unit_mm = !strcmp(arg, "mm") ? 1 : !strcmp(arg, "cm") ? 10 : !strcmp(arg, "m") ? 1000 : 0;
-        if (!(p->unit_mm > 0)) argp_error(state, "--unit=%s: must be mm, cm or m", arg);
+        if (!(p->unit_mm > 0)) command_usage(state, "--unit=%s: must be mm, cm or m", arg);
         return 0;
     case ARGP_KEY_ARG:
-        argp_error(state, "\"%s\": every input is named by an option, as in --skin=%s", arg, arg);
+        command_usage(state, "\"%s\": every input is named by an option, as in --skin=%s", arg, arg);
         return 0;
     case ARGP_KEY_END:
-        if (p->preset && !p->labels.count) argp_error(state, "--preset needs --labels");
+        if (p->preset && !p->labels.count) command_usage(state, "--preset needs --labels");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
@@ -130,11 +130,11 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
 
 static void print_plain(const import_result *r, const char *folder)
 {
-    printf("case %s\n", folder);
+    printf("case %s\n", command_shown(folder));
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
         const import_part *part = &r->part[i];
         if (!part->mesh.vertex_count) continue;
-        printf("  %-12s %s%s\n", case_surface_name((case_surface)i), part->source,
+        printf("  %-12s %s%s\n", case_surface_name((case_surface)i), command_shown(part->source),
                part->thresholded ? " (thresholded skin)" : "");
         printf("  %12s %d vertices, %d triangles, %d pieces, %.1f mm corner to corner\n", "", part->mesh.vertex_count,
                part->mesh.triangle_count, part->components, part->diagonal_mm);

@@ -67,10 +67,19 @@ static int unknown_verb(const char *word)
     for (int i = 0; i < verb_count; i++) names[i] = verbs[i].name;
     int near = suggest_nearest(word, names, verb_count);
     if (near >= 0)
-        fprintf(stderr, "gnathos: unknown verb \"%s\"; did you mean \"%s\"?\n", word, names[near]);
+        fprintf(stderr, "gnathos: unknown verb \"%s\"; did you mean \"%s\"?\n", command_shown(word), names[near]);
     else
-        fprintf(stderr, "gnathos: unknown verb \"%s\"; gnathos --help lists the verbs\n", word);
+        fprintf(stderr, "gnathos: unknown verb \"%s\"; gnathos --help lists the verbs\n", command_shown(word));
     return ERR_USAGE;
+}
+
+/* It looks like an option, but control bytes are in its name. */
+static bool is_no_option(const char *word)
+{
+    char name[1024], shown[sizeof name];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
+    err_printable(strcpy(shown, name), sizeof shown);
+    return word[0] == '-' && strcmp(name, shown) != 0;
 }
 
 static int dispatch(int argc, char **argv)
@@ -86,7 +95,12 @@ static int dispatch(int argc, char **argv)
         return ERR_USAGE;
     }
     if (word[0] == '-') {
-        fprintf(stderr, "gnathos: unknown option \"%s\"; options come after the verb\n", word);
+        fprintf(stderr, "gnathos: unknown option \"%s\"; options come after the verb\n", command_shown(word));
+        return ERR_USAGE;
+    }
+    for (int i = 2; i < argc; i++) { /* getopt would quote it as it is */
+        if (!is_no_option(argv[i])) continue;
+        fprintf(stderr, "gnathos %s: unknown option \"%s\"\n", command_shown(word), command_shown(argv[i]));
         return ERR_USAGE;
     }
     for (int i = 0; i < verb_count; i++) {

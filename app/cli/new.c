@@ -44,7 +44,7 @@ static double number(const char *arg, const char *what, struct argp_state *state
 {
     char *end;
     double value = strtod(arg, &end);
-    if (end == arg || *end || !(value - value == 0)) argp_error(state, "%s %s: must be a number", what, arg);
+    if (end == arg || *end || !(value - value == 0)) command_usage(state, "%s %s: must be a number", what, arg);
     return value;
 }
 
@@ -53,15 +53,15 @@ static int64_t whole(const char *arg, const char *what, int64_t low, int64_t hig
     char *end;
     long long value = strtoll(arg, &end, 10);
     if (end == arg || *end || value < low || value > high)
-        argp_error(state, "%s %s: must be a whole number from %lld to %lld", what, arg, (long long)low,
-                   (long long)high);
+        command_usage(state, "%s %s: must be a whole number from %lld to %lld", what, arg, (long long)low,
+                      (long long)high);
     return value;
 }
 
 static void set_measure(new_options *in, const char *arg, struct argp_state *state)
 {
     const char *equals = strchr(arg, '=');
-    if (!equals) argp_error(state, "--set %s: write MEASURE=VALUE", arg);
+    if (!equals) command_usage(state, "--set %s: write MEASURE=VALUE", arg);
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)(equals - arg), arg);
     int id = measure_find(name);
@@ -70,11 +70,11 @@ static void set_measure(new_options *in, const char *arg, struct argp_state *sta
         for (int i = 0; i < MEASURE_COUNT; i++) names[i] = measures[i].name;
         int near = suggest_nearest(name, names, MEASURE_COUNT);
         if (near >= 0)
-            argp_error(state, "--set %s: no such measure; did you mean %s?", name, names[near]);
+            command_usage(state, "--set %s: no such measure; did you mean %s?", name, names[near]);
         else
-            argp_error(state, "--set %s: no such measure; --measures lists them", name);
+            command_usage(state, "--set %s: no such measure; --measures lists them", name);
     }
-    if (in->p.is_set[id]) argp_error(state, "--set %s is given twice; which is meant?", name);
+    if (in->p.is_set[id]) command_usage(state, "--set %s is given twice; which is meant?", name);
     in->p.set[id] = number(equals + 1, name, state);
     in->p.is_set[id] = true;
 }
@@ -88,7 +88,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     switch (key) {
     case KEY_NORM: in->norm = true; return 0;
     case KEY_SEX:
-        if (strcmp(arg, "f") && strcmp(arg, "m")) argp_error(state, "--sex %s: must be f or m", arg);
+        if (strcmp(arg, "f") && strcmp(arg, "m")) command_usage(state, "--sex %s: must be f or m", arg);
         in->p.sex = arg[0] == 'm' ? NORM_MALE : NORM_FEMALE;
         return 0;
     case KEY_SEED: in->p.seed = (uint64_t)whole(arg, "--seed", 0, INT64_MAX, state); return 0;
@@ -99,8 +99,9 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_SET: set_measure(in, arg, state); return 0;
     case KEY_MEASURES: in->list = true; return 0;
     case ARGP_KEY_END:
-        if (!r->argument[0] && !in->list) argp_error(state, "name the case folder to make");
-        if (in->asked && !in->norm) argp_error(state, "this option belongs to --norm; without it the recipe decides");
+        if (!r->argument[0] && !in->list) command_usage(state, "name the case folder to make");
+        if (in->asked && !in->norm)
+            command_usage(state, "this option belongs to --norm; without it the recipe decides");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

@@ -36,7 +36,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     switch (key) {
     case KEY_NO_PICTURES: o->no_pictures = true; return 0;
     case KEY_CONTACT:
-        if (!contact_kind_find(arg, &o->contact)) argp_error(state, "--contact is bones, lips or off, not %s", arg);
+        if (!contact_kind_find(arg, &o->contact)) command_usage(state, "--contact is bones, lips or off, not %s", arg);
         return 0;
     case KEY_FULL: o->full = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
@@ -137,7 +137,7 @@ static bool run(run_context *r, err *e)
         command_print_record(json_incref(record));
     } else if (ok) {
         outcome_print(&o);
-        if (solved) printf("Results in %s\n", r->out_path);
+        if (solved) printf("Results in %s\n", command_shown(r->out_path));
     }
     json_decref(record);
     prediction_free(&made);

@@ -70,7 +70,7 @@ static bool number_of(const char *text, double low, double high, double *out)
 
 static void take(bool ok, const err *e, struct argp_state *state)
 {
-    if (!ok) argp_error(state, "%s", e->text);
+    if (!ok) command_usage(state, "%s", e->text);
 }
 
 static const int often[] = {KEY_SHOW, KEY_VIEW, 0};
@@ -85,35 +85,35 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case 's':
         if (sscanf(arg, "%dx%d%c", &in->width, &in->height, &rest) != 2 || in->width < 100 || in->height < 100 ||
             in->width > 8192 || in->height > 8192)
-            argp_error(state, "--size must be WxH with 100 to 8192 pixels each, got %s", arg);
+            command_usage(state, "--size must be WxH with 100 to 8192 pixels each, got %s", arg);
         return 0;
     case KEY_SHOW: take(order_show(arg, &in->order, &e), &e, state); return 0;
     case KEY_POSE: take(order_pose(arg, &in->order, &e), &e, state); return 0;
     case KEY_VIEW: take(order_view_add(arg, &in->order, &e), &e, state); return 0;
     case KEY_TURNTABLE:
         if (!number_of(arg, 1, ORDER_FRAMES_MAX, &number) || number != (int)number)
-            argp_error(state, "--turntable must be a whole number from 2 to %d, got %s", ORDER_FRAMES_MAX, arg);
+            command_usage(state, "--turntable must be a whole number from 2 to %d, got %s", ORDER_FRAMES_MAX, arg);
         in->order.turntable = (int)number;
         return 0;
     case KEY_ZOOM:
         if (!number_of(arg, 0.1 - 1e-12, 50, &in->style.zoom))
-            argp_error(state, "--zoom must lie in 0.1 to 50, got %s", arg);
+            command_usage(state, "--zoom must lie in 0.1 to 50, got %s", arg);
         return 0;
     case KEY_CENTRE: in->style.centre = arg; return 0;
     case KEY_PERSPECTIVE:
         if (!number_of(arg, 1 - 1e-12, 90, &in->style.perspective_deg))
-            argp_error(state, "--perspective must lie in 1 to 90 degrees, got %s", arg);
+            command_usage(state, "--perspective must lie in 1 to 90 degrees, got %s", arg);
         return 0;
     case KEY_RANGE:
         if (!number_of(arg, 0, 1000, &in->range))
-            argp_error(state, "--range must lie above 0 and up to 1000, got %s", arg);
+            command_usage(state, "--range must lie above 0 and up to 1000, got %s", arg);
         return 0;
     case KEY_OPACITY:
         if (!number_of(arg, 0, 1, &in->style.skin_opacity))
-            argp_error(state, "--skin-opacity must lie in (0, 1], got %s", arg);
+            command_usage(state, "--skin-opacity must lie in (0, 1], got %s", arg);
         return 0;
     case KEY_SEX:
-        if (strcmp(arg, "f") != 0 && strcmp(arg, "m") != 0) argp_error(state, "--sex is f or m, not %s", arg);
+        if (strcmp(arg, "f") != 0 && strcmp(arg, "m") != 0) command_usage(state, "--sex is f or m, not %s", arg);
         in->style.sex = *arg;
         return 0;
     case KEY_NO_LABELS: in->style.labels = false; return 0;

@@ -38,7 +38,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case 'o':
         n = strlen(arg);
         if (n < 6 || strcmp(arg + n - 5, ".html") != 0)
-            argp_error(state, "-o %s: the page's name must end in .html", arg);
+            command_usage(state, "-o %s: the page's name must end in .html", arg);
         r->out_path = arg;
         return 0;
     case KEY_AUDIT: o->audit = arg; return 0;
@@ -100,7 +100,7 @@ static bool run(run_context *r, err *e)
         command_print_record(record_json(&made_record_table, &made));
         json_decref(files);
     } else if (!r->common.quiet)
-        printf("%s: %.1f MB\n", path, (double)bytes / 1e6);
+        printf("%s: %.1f MB\n", command_shown(path), (double)bytes / 1e6);
     return true;
 }
 

@@ -14,7 +14,7 @@ static error_t take_argument(char *arg, run_context *r, struct argp_state *state
         r->argument[i] = arg;
         return 0;
     }
-    argp_error(state, "one argument too many: %s", arg);
+    command_usage(state, "one argument too many: %s", arg);
     return 0;
 }
 
@@ -27,7 +27,7 @@ static void take_once(int key, const char *arg, run_context *r, struct argp_stat
     const struct argp_option *o = r->verb->options;
     while (o->key != key) o++;
     if (r->given[key])
-        argp_error(state, "--%s is given twice: %s and %s; which is meant?", o->name, r->given[key], arg);
+        command_usage(state, "--%s is given twice: %s and %s; which is meant?", o->name, r->given[key], arg);
     r->given[key] = arg;
 }
 
@@ -36,8 +36,8 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     run_context *r = state->input;
     const verb *v = r->verb;
     if (key == ARGP_KEY_INIT) state->child_inputs[0] = &r->common;
-    if (key == ARGP_KEY_END && v->missing_plan && !r->plan_path) argp_error(state, "%s", v->missing_plan);
-    if (key == ARGP_KEY_END && v->missing_output && !r->out_path) argp_error(state, "%s", v->missing_output);
+    if (key == ARGP_KEY_END && v->missing_plan && !r->plan_path) command_usage(state, "%s", v->missing_plan);
+    if (key == ARGP_KEY_END && v->missing_output && !r->out_path) command_usage(state, "%s", v->missing_output);
     take_once(key, arg, r, state);
     error_t own = v->parse ? v->parse(key, arg, r, state) : ARGP_ERR_UNKNOWN;
     if (own != ARGP_ERR_UNKNOWN) return own;
@@ -48,7 +48,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_CACHE: r->cache = arg; return 0;
     case ARGP_KEY_ARG: return take_argument(arg, r, state);
     case ARGP_KEY_NO_ARGS:
-        if (v->missing_argument) argp_error(state, "%s", v->missing_argument);
+        if (v->missing_argument) command_usage(state, "%s", v->missing_argument);
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

@@ -38,7 +38,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_PATIENCE:
         o->patience = strtod(arg, &end);
         if (end == arg || *end || !(o->patience > 0 && o->patience <= 1000))
-            argp_error(state, "--patience %s: must be a number above 0, at most 1000", arg);
+            command_usage(state, "--patience %s: must be a number above 0, at most 1000", arg);
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

@@ -30,7 +30,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     switch (key) {
     case KEY_RATIOS: o->ratios = true; return 0;
     case ARGP_KEY_END:
-        if (o->ratios && r->plan_path) argp_error(state, "--ratios has its own moves: leave --plan out");
+        if (o->ratios && r->plan_path) command_usage(state, "--ratios has its own moves: leave --plan out");
         if (o->ratios) r->need &= ~(unsigned)NEED_PLAN;
         return 0;
     default: return ARGP_ERR_UNKNOWN;

@@ -161,6 +161,7 @@ static void name_after_folder(case_file *c)
     char real[PATH_MAX];
     const char *slash = realpath(c->folder, real) ? strrchr(real, '/') : NULL;
     snprintf(c->name, sizeof c->name, "%.200s", slash && slash[1] ? slash + 1 : "case");
+    err_printable(c->name, sizeof c->name);
 }
 
 static bool set_paths(const char *path, case_file *c)

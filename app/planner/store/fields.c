@@ -164,7 +164,7 @@ static void read_row(const field *r, const json_file *f, const json_t *v, const 
             fields_issue(f, pointer, issues, "has %zu bytes; at most %d are kept", json_string_length(v),
                          FIELD_TEXT_SIZE - 1);
         else
-            strcpy(at, json_string_value(v));
+            err_printable(strcpy(at, json_string_value(v)), FIELD_TEXT_SIZE);
         break;
     case FIELD_FILE:
         if (!json_is_string(v))
