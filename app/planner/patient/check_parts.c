@@ -47,6 +47,23 @@ static void measure(parts *p)
     }
 }
 
+static bool is_same(const surface *a, const surface *b)
+{
+    size_t bytes = 3 * (size_t)a->vertex_count * sizeof *a->xyz;
+    return a->triangle_count && a->triangle_count == b->triangle_count && a->vertex_count == b->vertex_count &&
+           !memcmp(a->xyz, b->xyz, bytes);
+}
+
+/* One file, or two copies of it, for two parts. */
+static void check_same(const parts *p, issue_list *issues)
+{
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++)
+        for (int k = 0; k < i; k++)
+            if (is_same(&p->mesh[k], &p->mesh[i]))
+                issue_add(issues, ISSUE_ERROR, ERR_INPUT, p->name[i], 0, NULL,
+                          "is one surface for two parts, %s and %s: which is it?", word(k), word(i));
+}
+
 /* Six times the volume about the middle: its sign tells the side that most triangles show, also of open surfaces. */
 static bool faces_inwards(const surface *s)
 {
@@ -112,7 +129,7 @@ static double share_within(const parts *p, int a, int b)
 static void check_twice(const parts *p, int bone, int in, issue_list *issues)
 {
     const double most = 0.5; /* joints and teeth that touch are a few per cent */
-    if (!p->tree[bone] || !p->tree[in] || !strcmp(p->name[bone], p->name[in])) return; /* one file: told before */
+    if (!p->tree[bone] || !p->tree[in] || is_same(&p->mesh[bone], &p->mesh[in])) return; /* told before */
     double share = share_within(p, bone, in);
     if (share > most)
         issue_add(issues, ISSUE_ERROR, ERR_GEOMETRY, p->name[in], 0, NULL,
@@ -151,6 +168,7 @@ void check_parts(const surface mesh[CASE_SURFACE_COUNT], const char *const name[
                  nearest *const tree[CASE_SURFACE_COUNT], issue_list *issues)
 {
     parts p = {.mesh = mesh, .name = name, .tree = tree};
+    check_same(&p, issues);
     check_facing(&p, issues);
     measure(&p);
     check_above(&p, CASE_SKULL, CASE_MANDIBLE, issues);

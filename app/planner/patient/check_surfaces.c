@@ -65,10 +65,6 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues)
         const char *path = c->surface[i];
         err e = {0};
         if (!*path) continue;
-        for (int k = 0; k < i; k++)
-            if (!strcmp(path, c->surface[k]))
-                issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 0, NULL, "is named as %s and as %s",
-                          case_surface_name((case_surface)k), case_surface_name((case_surface)i));
         surface *s = &found->mesh[i];
         if (!mesh_read_surface(path, case_file_space(c), s, &found->read[i], &e)) {
             issue_add_err(issues, ISSUE_ERROR, &e, path);

@@ -197,6 +197,7 @@ static void unknown(const field_table *t, const char *base, const char *key, con
 {
     char name[NAMES_MAX][64], all[768] = "";
     const char *list[NAMES_MAX];
+    if (issue_leave_out(issues, ISSUE_ERROR)) return; /* before the search for names that are like it */
     if (t->hint && t->hint(key, value, all, sizeof all)) {
         fields_issue(f, pointer, issues, "unknown field; %s", all);
         return;

@@ -68,7 +68,7 @@ def edit(path, *pairs):
 
 def add_points(path, **points):
     """Adds landmarks to markups; B_s stands for B'."""
-    edit(path, (' { "label": "Po_L"', "".join(f' {{ "label": "{name.replace("_s", chr(39))}", "position": {list(xyz)} }},\n ' for name, xyz in points.items())
+    edit(path, (' { "label": "Po_L"', "".join(f' {{ "label": "{re.sub("_s$", chr(39), name)}", "position": {list(xyz)} }},\n ' for name, xyz in points.items())
                + ' { "label": "Po_L"'))
 
 
