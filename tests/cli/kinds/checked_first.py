@@ -38,12 +38,12 @@ verbs = {
     "cut": ["cut", "case", "-o", "out"],
     "ratios": ["study", "case", "--ratios", "-o", "study"],
 }
-for name, change in mistakes.items():
+for i, (name, change) in enumerate(mistakes.items()):
     change(fresh())
     status, _, err = run("check", "case")
     first = next((l for l in err.splitlines() if not re.search(": (info|warning): ", l)), None)
     row(name, status in (3, 4) and first, f"check itself says {status} {err}")
-    for verb, words in verbs.items():
+    for verb, words in list(verbs.items()) if i == 0 else [list(verbs.items())[(2 * i + k) % len(verbs)] for k in (0, 1)]:
         got, out, said = run(*words)
         row(f"{name}, {verb}", got == status and first and said.startswith(first) and said.count("\n") == 1 and not out
             and not (work / "out").exists() and not (work / "case/prepared").exists(),

@@ -27,7 +27,7 @@ def nifti(path, code, kind, value, slope=0, shift=0):
 
 def ct(name, code, kind, air, tissue, ok, words=(), **scale):
     nifti(work / f"{name}.nii", code, kind, lambda inside, i: tissue if inside else air, **scale)
-    line = ["import", "--skull", "skull.stl", "--mandible", "jaw.stl", "--ct", f"{name}.nii", "--edge", "8", *words, "-o", f"new {name} {len(words)}"]
+    line = ["import", "--skull", "skull.stl", "--mandible", "jaw.stl", "--ct", f"{name}.nii", "--edge", "10", *words, "-o", f"new {name} {len(words)}"]
     if ok:
         accepted(f"{name} {words}", line, "thresholded skin")
     else:

@@ -49,7 +49,7 @@ base = {"skull": (1, 0), "jaw right": (2, 0), "jaw left": (3, 0)}
 counter = iter(range(1000))
 
 def imported(name, words, ok):
-    status, out, err = run("import", "--skin", "skin.stl", "--edge", "8", "-o", f"new{next(counter)}", "--json", *words)
+    status, out, err = run("import", "--skin", "skin.stl", "--edge", "10", "-o", f"new{next(counter)}", "--json", *words)
     row(name, ok(status, out, err), f"status {status}, {jaw_width(out)} of {whole}\n{err[:500]}")
 
 both = lambda status, out, err: status == 0 and abs(jaw_width(out) - whole) < 1

@@ -6,9 +6,9 @@ extra = {"A": (0, -70, -14), "B": (0, -75, -40), "U3_L": (15, -65, -20), "U3_R":
          "U1_apex": (0, -65, -10), "L1_apex": (0, -70, -35), "G_s": (0, -88, 45), "N_s": (0, -88, 25), "Sn": (0, -85, -8), "Li_soft": (0, -90, -32), "B_s": (0, -88, -42),
          "Pg_s": (0, -88, -60), "Me_s": (0, -85, -80), "Stms": (0, -90, -24), "Stmi": (0, -90, -25), "T_L": (75, 5, -10), "T_R": (-75, 5, -10),
          "Cor_L": (45, -5, -25), "Cor_R": (-45, -5, -25)}
-pairs = """N ANS|ANS PNS|A B|A U1|L1 B|B Me|Pog Me|B Pog|U3_L U6_L|U3_R U6_R|L3_L L6_L|L3_R L6_R|L6_L L7_L|L6_R L7_R|RA_L RP_L|RA_R RP_R|Co_L Go_L
-Co_R Go_R|SN_L Go_L|SN_R Go_R|Or_L ZB_L|Or_R ZB_R|PR_L PM_L|PR_R PM_R|U1_apex U1|L1 L1_apex|G' N'|N' Pn|Pn Sn|Sn Ls|Ls Li_soft|Li_soft B'|B' Pg'|Pg' Me'|Stms Stmi|Pn T_L|Pn T_R
-U6_L U6_R|L6_L L6_R|Co_L Co_R|Go_L Go_R|MF_L MF_R|ZB_L ZB_R|PR_L PR_R|T_L T_R|Cor_L Cor_R|U3_L U3_R|N Me|ANS Me|Ch_L Ch_R|Or_L Or_R|U1 L1|U6_L L6_L|U1 Pog""".replace("\n", "|").split("|")
+pairs = """N ANS|ANS PNS|A B|A U1|L1 B|B Me|Pog Me|B Pog|U3_L U6_L|U3_R U6_R|L3_L L6_L|L6_R L7_R|RA_L RP_L|RA_R RP_R|Co_L Go_L
+SN_R Go_R|Or_L ZB_L|PR_R PM_R|U1_apex U1|L1 L1_apex|G' N'|N' Pn|Pn Sn|Sn Ls|Ls Li_soft|Li_soft B'|B' Pg'|Pg' Me'|Stms Stmi|Pn T_L
+U6_L U6_R|Co_L Co_R|MF_L MF_R|T_L T_R|Cor_L Cor_R|U3_L U3_R|N Me|ANS Me|Ch_L Ch_R|Or_L Or_R|U1 L1|U6_L L6_L|U1 Pog""".replace("\n", "|").split("|")
 
 def with_points():
     path = fresh() / "landmarks.mrk.json"

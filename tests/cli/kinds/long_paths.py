@@ -30,13 +30,13 @@ for end, path in {"long": long, "deep": deep, "at the end": "case" + "/." * 2040
 
 fresh()
 files = ["--skin", "case/skin.off", "--skull", "case/skull.off", "--mandible", "case/mandible.off"]
-for path in (long, deep):
+for i, path in enumerate((long, deep)):
     for words in (["check", path], ["prepare", path], ["check", "case", "--plan", path], ["predict", "case", "--plan", "case/plan.json", "-o", path],
                   ["predict", "case", "--plan", path, "-o", "out"], ["cut", "case", "-o", path], ["audit", "case", "-o", path], ["audit", "case", "--around", path, "-o", "out"],
                   ["study", "case", "--plan", "case/plan.json", "-o", path], ["import", *files, "-o", path], ["import", *files, "--landmarks", path + ".fcsv", "-o", "n"],
                   ["import", "--skin", path + ".off", *files[2:], "-o", "n"], ["import", "--labels", path + ".nii", "--skull", "1", "--mandible", "2", *files[:2], "-o", "n"],
                   ["import", *files[2:], "--ct", path + ".nrrd", "-o", "n"], ["render", path], ["ceph", path], ["export", path, "--format", "obj", "-o", "n"], ["report", path],
                   ["compare", path, "case/skin.off"], ["compare", "case/skin.off", path + ".off", "--landmarks", "case/landmarks.mrk.json"], ["compare", "case/skin.off", "case/skin.off", "--landmarks", path],
-                  ["new", path, "--norm", "--coarseness", "3"], ["stress", "--only", "poisson/0.45", "-o", path]):
+                  ["new", path, "--norm", "--coarseness", "3"], ["stress", "--only", "poisson/0.45", "-o", path])[i::2]:  # one of the two each
         refused(" ".join(words).replace(path, "LONG" if path == long else "DEEP"), words, (2, 3, 7))
 finish()

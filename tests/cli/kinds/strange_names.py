@@ -35,8 +35,9 @@ for name, change in {
 }.items():
     case_with(change)
     quiet_bytes(f"case: {name}", check)
-    status, out, err = run(*check, "--json")
-    row(f"case: {name}, JSON", status == 124 or not raw.search(out + err), repr(out[:300]))
+    if name in ("surface", "name of the case"):
+        status, out, err = run(*check, "--json")
+        row(f"case: {name}, JSON", status != 124 and not raw.search(out + err), repr(out[:300]))
 
 for name, plan in {
     "field": {evil: 1}, "segment": {"segments": {evil: {}}}, "field of a segment": {"segments": {"maxilla": {evil: 1}}},
