@@ -14,9 +14,10 @@ static void print_finding(const plan_audit *a, const finding *f)
     }
     if (isfinite(f->margin)) snprintf(margin, sizeof margin, "%.2f", f->margin);
     if (!isnan(f->scan)) snprintf(scan, sizeof scan, "  in the scan %.2f", f->scan);
-    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s\n", limit_level_name(f->level), name, f->value,
+    bool told = f->note && f->level >= LIMIT_CAUTION;
+    printf("%-10s %-56s %8.2f  %-14s %-14s %8s%s%s%s%s\n", limit_level_name(f->level), name, f->value,
            limit_range_words(r->fine, fine), limit_range_words(r->stop, stop), margin,
-           f->estimated ? "  estimated" : "", scan);
+           f->estimated ? "  estimated" : "", scan, told ? "  " : "", told ? f->note : "");
 }
 
 static void print_stops(const judgement *j)
