@@ -6,9 +6,8 @@
  * (Peterson's Principles of Oral and Maxillofacial Surgery 2022, chapters 62 and 63), and pushes what lies in
  * front of it. The bone that stays was bared to reach the cut: tissue there hangs loose over a strip. */
 #pragma once
+#include "geometry/rest_gap.h"
 #include "geometry/rigid.h"
-#include "geometry/segment_trees.h"
-#include "geometry/tissue.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -25,8 +24,8 @@ typedef struct plan_attach_report {
     int32_t tied, loosened; /* nodes */
 } plan_attach_report;
 
-/* A new map for this plan; the caller frees *out. */
-void plan_attach(const tissue *t, const segment_trees *bones, const rigid motion[SEGMENT_COUNT],
+/* A new map for this plan; the caller frees *out. gap: of t. */
+void plan_attach(const tissue *t, const rest_gap *gap, const rigid motion[SEGMENT_COUNT],
                  const plan_attach_params *p, attach_map *out, plan_attach_report *report);
 
 #ifdef __cplusplus

@@ -50,6 +50,26 @@ static inline void block_on_plane(touching *s, double poisson)
     s->setup.shape[SEGMENT_DISTAL] = &s->shape;
 }
 
+/* A block held at its top over a plate as thin as an incisor's edge. Without contact it would stay where it is, with
+ * its lowest nodes below the plate once that has risen. */
+static inline void block_over_plate(touching *s, double thick)
+{
+    block b = {5, 4, 4, {20, 16, 12}, 6, 0.15};
+    *s = (touching){.body = {.mesh = block_mesh(&b)}, .bone = {KNOWN_PLATE, {0, 0, -thick / 2 - 0.2}, thick / 2, 0.1}};
+    tetmesh *m = &s->body.mesh;
+    s->body.attach = attach_map_new(m->vertex_count, 0);
+    s->upper = NEW_ARRAY(int32_t, m->vertex_count);
+    for (int32_t v = 0; v < m->vertex_count; v++) {
+        if (m->xyz[3 * v + 2] == 12) tie(&s->body.attach, v, SEGMENT_MAXILLA);
+        if (m->xyz[3 * v + 2] == 0) s->upper[s->setup.extra_count++] = v;
+    }
+    wire_touching(s, 0.45);
+    s->shape = known_shape(&s->bone);
+    s->setup.held = true;
+    s->setup.shape[SEGMENT_DISTAL] = &s->shape;
+    s->setup.extra = s->upper;
+}
+
 /* Faces of the mesh's boundary all of whose nodes have `mark`. */
 static inline int32_t *marked_faces(const tetmesh *m, const uint8_t *marks, uint8_t mark, int32_t *count)
 {

@@ -42,9 +42,12 @@ static attach_map attach(const setting *s)
     plan_attach_report r;
     attach_map a;
     segment_trees trees;
+    rest_gap gap;
     err e = {0};
     assert_ok(segment_trees_make(&s->bones, NULL, &trees, &e));
-    plan_attach(&s->t, &trees, s->motion, &p, &a, &r);
+    rest_gap_make(&s->t, &trees, &gap);
+    plan_attach(&s->t, &gap, s->motion, &p, &a, &r);
+    rest_gap_free(&gap);
     segment_trees_free(&trees);
     return a;
 }

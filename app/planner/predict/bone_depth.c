@@ -2,6 +2,7 @@
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
 #include "geometry/vec.h"
+#include <math.h>
 #include <stdlib.h>
 
 static const double limit_mm = 0.1, deep_mm = 1;
@@ -9,6 +10,7 @@ static const double limit_mm = 0.1, deep_mm = 1;
 typedef struct bones {
     nearest *const *part;
     const nearest *skin;
+    const rest_gap *gap;
     rigid back[SEGMENT_COUNT];
 } bones;
 
@@ -34,14 +36,15 @@ static double *node_areas(const tetmesh *m)
     return area;
 }
 
-static void ask_node(const bones *b, const double rest[3], const double x[3], double area, bone_depth *r)
+static void ask_node(const bones *b, int32_t v, const double rest[3], const double x[3], double area, bone_depth *r)
 {
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         double before[3];
         if (!b->part[s]) continue;
         rigid_apply(&b->back[s], x, before);
+        if (b->gap->part[s][v] > vec_distance(rest, before)) continue; /* it came no farther than up to the bone */
         double deeper = depth_in(b->part[s], before);
-        if (deeper > limit_mm) deeper -= depth_in(b->part[s], rest);
+        if (deeper > limit_mm) deeper -= fmax(0, -b->gap->part[s][v]);
         if (deeper <= limit_mm) continue;
         r->nodes++;
         r->area_mm2 += area;
@@ -59,15 +62,14 @@ static void ask_node(const bones *b, const double rest[3], const double x[3], do
 bone_depth bone_depth_measure(const prepared *p, const bone_shapes *shapes, const plan_moves *moves,
                               const attach_map *a, const double *xyz)
 {
-    bones b = {.part = shapes->trees.part, .skin = shapes->trees.skin};
+    bones b = {.part = shapes->trees.part, .skin = shapes->trees.skin, .gap = &shapes->gap};
     bone_depth out = {.limit_mm = limit_mm, .segment = -1};
     const tissue *t = &p->tissue;
     double *area = node_areas(&t->mesh);
     for (int s = 0; s < SEGMENT_COUNT; s++) b.back[s] = rigid_inverse(&moves->move[s]);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
-        bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN;
-        if (outside && a->kind[v] != NODE_TIED)
-            ask_node(&b, t->mesh.xyz + 3 * (size_t)v, xyz + 3 * (size_t)v, area[v], &out);
+        if (rest_gap_asks(t, v) && a->kind[v] != NODE_TIED)
+            ask_node(&b, v, t->mesh.xyz + 3 * (size_t)v, xyz + 3 * (size_t)v, area[v], &out);
     }
     free(area);
     return out;

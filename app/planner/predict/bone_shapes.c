@@ -34,6 +34,7 @@ bool bone_shapes_make(const prepared *p, bone_shapes *out, err *e)
         out->field[k] = distance_field_create(out->trees.part[k], low, high, grid_mm, known_mm);
         out->shape[k] = (bone_shape){.context = out->field[k], .distance = distance, .leave = leave};
     }
+    rest_gap_make(&p->tissue, &out->trees, &out->gap);
     out->carriers = landmark_carriers_find(p, &out->trees);
     return true;
 }
@@ -41,6 +42,7 @@ bool bone_shapes_make(const prepared *p, bone_shapes *out, err *e)
 void bone_shapes_free(bone_shapes *s)
 {
     for (int k = 0; k < SEGMENT_COUNT; k++) distance_field_destroy(&s->field[k]);
+    rest_gap_free(&s->gap);
     segment_trees_free(&s->trees);
     landmark_carriers_free(&s->carriers);
     *s = (bone_shapes){0};

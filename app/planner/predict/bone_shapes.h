@@ -1,9 +1,9 @@
 /* bone_shapes: a case's surfaces at rest as every plan asks them: trees for exact questions, smooth distances of the
- * segments for contact, and what carries the landmarks. */
+ * segments for contact, what carries the landmarks, and how far the tissue is from the bones. */
 #pragma once
 #include "app/planner/predict/carried.h"
 #include "geometry/distance_field.h"
-#include "geometry/segment_trees.h"
+#include "geometry/rest_gap.h"
 #include "sim/contact.h"
 
 typedef struct bone_shapes {
@@ -11,6 +11,7 @@ typedef struct bone_shapes {
     distance_field *field[SEGMENT_COUNT]; /* NULL: the case has no such segment */
     bone_shape shape[SEGMENT_COUNT];      /* over the fields */
     landmark_carriers carriers;
+    rest_gap gap; /* of the tissue */
 } bone_shapes;
 
 /* Fills *out in place (not to be copied); the caller frees it before p. Refuses what nearest_create refuses. */

@@ -41,10 +41,10 @@ static void find_extra(const tissue *t, const attach_map *a, const rigid motion[
     c->extra = NEW_ARRAY(int32_t, t->mesh.vertex_count);
     for (int32_t v = 0; v < t->mesh.vertex_count; v++) {
         const double *x = t->mesh.xyz + 3 * (size_t)v;
-        bool outside = t->side[v] == SIDE_BONE || t->side[v] == SIDE_HOLE || t->side[v] == SIDE_SKIN, near = false;
-        double slip = outside && a->kind[v] == NODE_FREE ? slip_at(motion, s, x) : 0;
+        bool near = false;
+        double slip = rest_gap_asks(t, v) && a->kind[v] == NODE_FREE ? slip_at(motion, s, x) : 0;
         for (int k = 0; slip > 0 && !near && k < SEGMENT_COUNT; k++)
-            near = s->trees.part[k] && nearest_point(s->trees.part[k], x, NULL, NULL) < slip + more_mm + watch_mm;
+            near = s->gap.part[k] && fabs(s->gap.part[k][v]) < slip + more_mm + watch_mm;
         if (near) c->extra[c->setup.extra_count++] = v;
     }
     c->setup.extra = c->extra;

@@ -37,14 +37,14 @@ static void add_nose(const prepared *p, const segment_trees *trees, const rigid 
     t->mesh.region = t->nose.region;
 }
 
-bool plan_tissue_make(const case_file *c, const prepared *p, const segment_trees *trees,
+bool plan_tissue_make(const case_file *c, const prepared *p, const bone_shapes *shapes,
                       const rigid motion[SEGMENT_COUNT], bool free_lips, material_model model, plan_tissue *out, err *e)
 {
     plan_tissue t = {.mesh = p->tissue.mesh};
     plan_attach_params along_cuts = plan_attach_params_default(c->tissue.cut_band_mm);
-    plan_attach(&p->tissue, trees, motion, &along_cuts, &t.attach, &t.cuts);
-    add_nose(p, trees, motion, &t);
-    if (!free_lips) add_lip(c, p, trees, motion, &t);
+    plan_attach(&p->tissue, &shapes->gap, motion, &along_cuts, &t.attach, &t.cuts);
+    add_nose(p, &shapes->trees, motion, &t);
+    if (!free_lips) add_lip(c, p, &shapes->trees, motion, &t);
     bool ok = make_materials(c, model, &t, e);
     if (ok)
         *out = t;

@@ -1,7 +1,7 @@
 /* plan_tissue: the tissue as one plan meets it: attachments along the cuts that open, cartilage where the
  * nose needs it, and the materials. */
 #pragma once
-#include "app/planner/patient/prepared.h"
+#include "app/planner/predict/bone_shapes.h"
 #include "geometry/lip_rest.h"
 #include "geometry/nose.h"
 #include "geometry/plan_attach.h"
@@ -19,9 +19,9 @@ typedef struct plan_tissue {
 } plan_tissue;
 
 /* free_lips: lips and mucosa will be left to touch by themselves, so that the lower lip is not laid onto the
- * teeth. model: of flesh. trees: of p, with the skin. The caller frees *out before p. Refuses what material_make
+ * teeth. model: of flesh. shapes: of p. The caller frees *out before p. Refuses what material_make
  * refuses. */
-bool plan_tissue_make(const case_file *c, const prepared *p, const segment_trees *trees,
+bool plan_tissue_make(const case_file *c, const prepared *p, const bone_shapes *shapes,
                       const rigid motion[SEGMENT_COUNT], bool free_lips, material_model model, plan_tissue *out,
                       err *e) MUST_CHECK;
 void plan_tissue_free(plan_tissue *t);

@@ -48,8 +48,7 @@ bool prediction_begin(const case_file *c, const prepared *p, const bone_shapes *
     *out = (prediction){0};
     *setup = (prediction_setup){0};
     plan_tissue *flesh = &out->flesh;
-    if (!plan_tissue_make(c, p, &shapes->trees, moves->move, options->contact == CONTACT_LIPS, options->model, flesh,
-                          e))
+    if (!plan_tissue_make(c, p, shapes, moves->move, options->contact == CONTACT_LIPS, options->model, flesh, e))
         return false;
     if (options->contact == CONTACT_BONES)
         flesh->released = plan_contact_release(&p->tissue, shapes, moves->move, &flesh->attach);

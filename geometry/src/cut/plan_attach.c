@@ -1,7 +1,6 @@
 #include "geometry/plan_attach.h"
 #include "geometry/mem.h"
-#include "geometry/nearest.h"
-#include "geometry/vec.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +12,7 @@ plan_attach_params plan_attach_params_default(double cut_band_mm)
 typedef struct field {
     const tissue *t;
     const rigid *motion;
-    nearest *const *part, *kerf;
+    const rest_gap *gap;
 } field;
 
 static bool moves_as(const field *f, int a, int b)
@@ -29,12 +28,12 @@ static bool is_carried(int a, int b)
 }
 
 /* The segment a node touches; *other is the nearest one that moves otherwise, -1 if none, at *gap mm. */
-static int touched(const field *f, const double p[3], int *other, double *gap)
+static int touched(const field *f, int32_t v, int *other, double *gap)
 {
     double to[SEGMENT_COUNT];
     int best = -1;
     for (int s = 0; s < SEGMENT_COUNT; s++) {
-        to[s] = f->part[s] ? nearest_point(f->part[s], p, NULL, NULL) : HUGE_VAL;
+        to[s] = f->gap->part[s] ? fabs(f->gap->part[s][v]) : HUGE_VAL;
         if (best < 0 || to[s] < to[best]) best = s;
     }
     *gap = HUGE_VAL;
@@ -55,13 +54,12 @@ static void loosen(attach_map *a, int32_t v)
 
 static void settle(const field *f, const plan_attach_params *p, int32_t v, attach_map *a, plan_attach_report *r)
 {
-    const double *x = f->t->mesh.xyz + 3 * (size_t)v;
     int other;
     double gap;
     if (a->kind[v] == NODE_SLIDING) return;
-    double saw = nearest_point(f->kerf, x, NULL, NULL);
+    double saw = fabs(f->gap->kerf[v]);
     if (a->kind[v] == NODE_FREE ? saw >= p->cut_mm : saw >= p->bared_mm) return;
-    int segment = touched(f, x, &other, &gap);
+    int segment = touched(f, v, &other, &gap);
     bool carried = other < 0 || is_carried(segment, other);
     bool hold = gap > (carried ? p->edge_mm : p->bared_mm);
     if (hold && a->kind[v] == NODE_FREE) {
@@ -127,13 +125,13 @@ static attach_map copy_of(const attach_map *a)
     return b;
 }
 
-void plan_attach(const tissue *t, const segment_trees *bones, const rigid motion[SEGMENT_COUNT],
-                 const plan_attach_params *p, attach_map *out, plan_attach_report *report)
+void plan_attach(const tissue *t, const rest_gap *gap, const rigid motion[SEGMENT_COUNT], const plan_attach_params *p,
+                 attach_map *out, plan_attach_report *report)
 {
-    field f = {.t = t, .motion = motion, .part = bones->part, .kerf = bones->kerf};
+    field f = {.t = t, .motion = motion, .gap = gap};
     *report = (plan_attach_report){0};
     *out = copy_of(&t->attach);
-    if (!f.kerf) return;
+    if (!gap->kerf) return;
     uint8_t *paired = NEW_ARRAY(uint8_t, t->mesh.vertex_count); /* the lips hang on each other */
     for (int32_t i = 0; i < 2 * out->pair_count; i++) paired[out->pair[i]] = 1;
     for (int32_t v = 0; v < t->mesh.vertex_count; v++)

@@ -43,7 +43,7 @@ void contact_retract(const contact *c, const attach_map *attach, double *x)
 
 double contact_follow(const contact *c, const attach_map *attach, boundary *b, const double *x)
 {
-    double farthest = 0;
+    double farthest = -1;
     for (int32_t i = 0; i < c->node_count; i++) {
         size_t v = (size_t)c->node[i];
         double off, n[3];

@@ -75,7 +75,7 @@ void contact_refresh(contact *c, const double *x);
 /* held: puts sliding nodes at x[3*nodes] back on their levels, to first order. */
 void contact_retract(const contact *c, const attach_map *attach, double *x);
 /* held: turns and shifts the planes of sliding nodes so that they touch their levels next to x[3*nodes].
- * Returns the farthest move of a node, mm. */
+ * Returns the farthest move of a node, mm; -1: none follows a level. Unknowns are to be projected anew else. */
 double contact_follow(const contact *c, const attach_map *attach, boundary *b, const double *x);
 /* Signed distance of a bone from a point at[3] in its own place at rest, HUGE_VAL: nothing is near. */
 double contact_bone_gap(const contact *c, const contact_link *link, const double at[3], double grad[3], double *hess);

@@ -17,12 +17,12 @@ void iterate_refresh(descent *d)
     static const double old_mm = 0.01; /* planes that moved farther make a new factor worth while */
     solver *t = d->t;
     double moved = contact_follow(t->touch, t->attach, &t->b, d->here.x);
-    if (moved > 0) {
+    if (moved >= 0) {
         boundary_project(&t->b, d->here.x, d->here.z);
         boundary_place(&t->b, d->here.z, d->here.x);
     }
     if (moved > old_mm) direct_forget(&d->direct);
-    d->out->contact.slide_off_mm = moved;
+    d->out->contact.slide_off_mm = fmax(0, moved);
     contact_refresh(t->touch, d->here.x);
     point_measure(d);
     d->out->contact.refresh_change_mm = contact_refresh_change(t->touch);
