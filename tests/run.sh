@@ -16,7 +16,7 @@ fi
 rm -f "$build.log"
 logs=$build/Testing/Temporary
 rm -f "$logs/LastTestsFailed.log"
-(cd "$build" && ctest --output-on-failure "$@")
+(cd "$build" && ctest --output-on-failure -j "$(nproc)" "$@")
 [ -f "$logs/LastTestsFailed.log" ] || : >"$logs/LastTestsFailed.log"
 
 # Counts single tests: an executable says how many of its tests passed, failed and were skipped; anything else is one.
