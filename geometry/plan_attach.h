@@ -25,8 +25,8 @@ typedef struct plan_attach_report {
 } plan_attach_report;
 
 /* A new map for this plan; the caller frees *out. gap: of t. */
-void plan_attach(const tissue *t, const rest_gap *gap, const rigid motion[SEGMENT_COUNT],
-                 const plan_attach_params *p, attach_map *out, plan_attach_report *report);
+void plan_attach(const tissue *t, const rest_gap *gap, const rigid motion[SEGMENT_COUNT], const plan_attach_params *p,
+                 attach_map *out, plan_attach_report *report);
 
 #ifdef __cplusplus
 }
