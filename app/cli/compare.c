@@ -8,25 +8,40 @@
 #endif
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct compare_options {
-    const char *landmarks, *actual_landmarks;
-    bool no_align, no_pictures;
+    const char *landmarks, *actual_landmarks, *actual_skull;
+    bool no_pictures;
+    compare_align align;
     double range_mm;
 } compare_options;
 
-enum { KEY_ACTUAL = KEY_OWN, KEY_NO_ALIGN, KEY_NO_PICTURES, KEY_RANGE };
+enum { KEY_ACTUAL = KEY_OWN, KEY_SKULL, KEY_ALIGN, KEY_NO_ALIGN, KEY_NO_PICTURES, KEY_RANGE };
 
 static const struct argp_option options[] = {
     {"landmarks", 'l', "FILE", 0, "Landmarks of the predicted face, where it is a mesh", 0},
     {"actual-landmarks", KEY_ACTUAL, "FILE", 0, "Landmarks of the actual face, to compare them too", 0},
-    {"no-align", KEY_NO_ALIGN, NULL, 0, "Take both faces as they lie (default: aligned on forehead and nasal bridge)",
+    {"actual-skull", KEY_SKULL, "FILE", 0, "Skull in the actual face's place, to align the faces on bone", 0},
+    {"align", KEY_ALIGN, "HOW", 0,
+     "bone: on the front of the cranium (default where both faces have it); skin: on forehead, dorsum of the nose and "
+     "sides of the orbits (default else); none: as registered, both faces as they lie",
      0},
+    {"no-align", KEY_NO_ALIGN, NULL, 0, "The same as --align none", 0},
     OPTION_OUTPUT("Folder for the tables, the surface with the distances and the picture"),
     OPTION_FORCE,
     {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the picture out", 0},
     {"range", KEY_RANGE, "MM", 0, "End of the colour range, to both sides (5: pictures of different faces compare)", 0},
     {0}};
+
+static compare_align read_align(const char *arg, struct argp_state *state)
+{
+    static const char *const word[] = {[ALIGN_BONE] = "bone", [ALIGN_SKIN] = "skin", [ALIGN_NONE] = "none"};
+    for (int i = ALIGN_BONE; i <= ALIGN_NONE; i++)
+        if (!strcmp(arg, word[i])) return (compare_align)i;
+    argp_error(state, "--align %s: must be bone, skin or none", arg);
+    return ALIGN_USUAL;
+}
 
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
@@ -35,7 +50,9 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     switch (key) {
     case 'l': o->landmarks = arg; return 0;
     case KEY_ACTUAL: o->actual_landmarks = arg; return 0;
-    case KEY_NO_ALIGN: o->no_align = true; return 0;
+    case KEY_SKULL: o->actual_skull = arg; return 0;
+    case KEY_ALIGN: o->align = read_align(arg, state); return 0;
+    case KEY_NO_ALIGN: o->align = ALIGN_NONE; return 0;
     case KEY_NO_PICTURES: o->no_pictures = true; return 0;
     case KEY_RANGE:
         o->range_mm = strtod(arg, &end);
@@ -106,7 +123,8 @@ static bool run(run_context *r, err *e)
 {
     const compare_options *o = r->own;
     face_compare c = {0};
-    face_compare_input what = {r->argument[0], r->argument[1], o->landmarks, o->actual_landmarks, !o->no_align};
+    face_compare_input what = {r->argument[0],      r->argument[1],  o->landmarks,
+                               o->actual_landmarks, o->actual_skull, o->align};
     command_progress_at(&r->common, "comparing", -1);
     bool ok = face_compare_make(&what, &c, e);
     json_t *record = ok ? face_compare_json(&what, &c) : NULL;
@@ -125,7 +143,7 @@ const verb verb_compare = {
     .about =
         "Compares a predicted face (an outcome of gnathos predict, or a mesh) with an actual one (a mesh, or another "
         "outcome): the signed distance of the surfaces by region. An outcome is also held against two trivial "
-        "predictions: no change, and skin that follows the bone below it.",
+        "predictions: the skin before, and the skin before moved by 0.85 of the bones' own moves, smoothed over 12 mm.",
     .options = options,
     .argument_count = 2,
     .need = NEED_OUTPUT,

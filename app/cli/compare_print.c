@@ -2,11 +2,13 @@
 #include "geometry/vec.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static void print_trivial(const face_compare *c)
 {
-    printf("\nmean |d|, mm    prediction  no change  smoothed bone x 0.85\n");
+    printf(
+        "\nno change: the skin before. smoothed bone: the skin before moved by 0.85 of the bones' own moves, smoothed "
+        "over 12 mm\n");
+    printf("mean |d|, mm    prediction  no change  smoothed bone\n");
     for (int r = 0; r < ROW_COUNT; r++)
         printf("%-14s %11.2f %10.2f %13.2f\n", face_row_name(r), c->row[PREDICTED][r].mean_abs,
                c->row[NO_CHANGE][r].mean_abs, c->row[SMOOTHED_BONE][r].mean_abs);
@@ -27,45 +29,58 @@ static void print_trivial(const face_compare *c)
     }
 }
 
-/* Points of the skin; the file has the bone's as well. */
-static bool on_skin(const char *label)
+/* The errors of landmark i by the prediction and the trivial ones, mm, and the first along the head's axes; false: the
+ * actual face lacks it, or it is none of the skin. */
+static bool landmark_errors(const face_compare *c, int32_t i, double error[PREDICTION_COUNT], double d[3])
 {
-    static const char *const bare[] = {"Pn",   "Sn",   "Al_L",    "Al_R", "Ls",  "Stm",
-                                       "Stms", "Stmi", "Li_soft", "Ch_L", "Ch_R"};
-    for (size_t i = 0; i < sizeof bare / sizeof *bare; i++)
-        if (!strcmp(label, bare[i])) return true;
-    return strchr(label, '\'') != NULL;
+    const landmarks *of[PREDICTION_COUNT] = {&c->points, &c->rest_points, &c->smoothed_points};
+    double along[3];
+    if (!face_compare_on_skin(c->points.point[i].label) || !face_compare_landmark(c, &c->points, i, d)) return false;
+    for (int k = 0; k < c->predictions; k++) {
+        if (!face_compare_landmark(c, of[k], i, along)) return false;
+        error[k] = vec_norm(along);
+    }
+    return true;
 }
 
 static void print_landmarks(const face_compare *c)
 {
-    bool rest = c->rest_points.count > 0;
-    double d[3], unchanged[3] = {0}, sum[2] = {0, 0};
+    bool rest = c->predictions > 1;
+    double d[3], error[PREDICTION_COUNT], sum[PREDICTION_COUNT] = {0};
     int count = 0;
     for (int32_t i = 0; i < c->points.count; i++) {
-        if (!on_skin(c->points.point[i].label) || !face_compare_landmark(c, &c->points, i, d)) continue;
-        if (rest && !face_compare_landmark(c, &c->rest_points, i, unchanged)) continue;
-        if (!count++) printf("\nlandmark     error, mm  forward     up   left%s\n", rest ? "  no change" : "");
-        printf("%-12s %9.2f %8.2f %6.2f %6.2f", c->points.point[i].label, vec_norm(d), d[0], d[1], d[2]);
-        if (rest) printf(" %10.2f", vec_norm(unchanged));
+        if (!landmark_errors(c, i, error, d)) continue;
+        if (!count++)
+            printf("\nlandmark     error, mm  forward     up   left%s\n", rest ? "  no change  smoothed bone" : "");
+        printf("%-12s %9.2f %8.2f %6.2f %6.2f", c->points.point[i].label, error[PREDICTED], d[0], d[1], d[2]);
+        if (rest) printf(" %10.2f %14.2f", error[NO_CHANGE], error[SMOOTHED_BONE]);
         putchar('\n');
-        sum[0] += vec_norm(d);
-        sum[1] += vec_norm(unchanged);
+        for (int k = 0; k < c->predictions; k++) sum[k] += error[k];
     }
-    if (count) printf("mean of %-3d  %9.2f", count, sum[0] / count);
-    if (count && rest) printf(" %34.2f", sum[1] / count);
-    if (count) putchar('\n');
+    if (!count) return;
+    printf("mean of %-3d  %9.2f", count, sum[PREDICTED] / count);
+    if (rest) printf(" %33.2f %14.2f", sum[NO_CHANGE] / count, sum[SMOOTHED_BONE] / count);
+    putchar('\n');
+}
+
+static double degrees(const face_alignment *a) { return rigid_angle(&a->fit.move) * (180 / acos(-1.0)); }
+
+static void print_alignment(const face_compare *c)
+{
+    const surface_fit *f = &c->aligned.fit;
+    printf("aligned on %s\n", face_compare_aligned_on(c));
+    if (c->aligned.known && f->points)
+        printf("turned %.2f deg (%.2f mm at the chin), RMS %.3f -> %.3f mm over %d of %d points\n",
+               degrees(&c->aligned), c->aligned.turn_at_chin_mm, f->rms_before_mm, f->rms_after_mm, f->used, f->points);
+    if (c->by_skin.known)
+        printf("skin alone would turn it by %.2f deg more and move the chin by %.2f mm (RMS there %.3f -> %.3f mm)\n",
+               degrees(&c->by_skin), c->by_skin.chin_mm, c->by_skin.fit.rms_before_mm, c->by_skin.fit.rms_after_mm);
+    putchar('\n');
 }
 
 void compare_print(const face_compare *c)
 {
-    if (c->aligned)
-        printf("aligned on forehead and nasal bridge: turned %.2f deg (%.2f mm at the chin), RMS %.3f -> "
-               "%.3f mm over %d of %d points\n\n",
-               rigid_angle(&c->fit.move) * (180 / acos(-1.0)), c->turn_at_chin_mm, c->fit.rms_before_mm,
-               c->fit.rms_after_mm, c->fit.used, c->fit.points);
-    else
-        printf("not aligned: both faces taken as they lie\n\n");
+    print_alignment(c);
     printf("signed distance, mm: positive where the actual face lies in front of the predicted one\n");
     printf("%-12s %7s %7s %7s %7s %7s %7s  %6s %6s\n", "", "points", "mean", "mean|d|", "RMS", "90 %", "95 %", "< 1 mm",
            "< 2 mm");

@@ -1,6 +1,8 @@
 #include "app/planner/predict/compare_record.h"
+#include "app/planner/patient/landmark_needs.h"
 #include "geometry/vec.h"
 #include <math.h>
+#include <string.h>
 
 const char *prediction_name(prediction_kind k)
 {
@@ -25,6 +27,13 @@ bool face_compare_landmark(const face_compare *c, const landmarks *predicted, in
     return true;
 }
 
+bool face_compare_on_skin(const char *label)
+{
+    for (int i = 0; i < landmark_row_count; i++)
+        if (!strcmp(landmark_rows[i].label, label)) return landmark_rows[i].on == CASE_SKIN;
+    return strchr(label, '\'') != NULL; /* the user's own */
+}
+
 bool face_compare_beats(const face_compare *c, int row)
 {
     double own = c->row[PREDICTED][row].mean_abs;
@@ -46,55 +55,79 @@ static const record_table stats_table = {.title = "Distances over a region", REC
 
 typedef struct compared_landmark {
     const char *label;
-    double error_mm, along_mm[3], unchanged_mm;
+    double error_mm, along_mm[3], unchanged_mm, smoothed_mm;
 } compared_landmark;
 
-static const record_row landmark_row[] = {
+static const record_row compared_row[] = {
     ROW(compared_landmark, label, "label", NULL, "its label"),
     ROW(compared_landmark, error_mm, "error_mm", "mm", "distance of the actual from the predicted one"),
     ROW(compared_landmark, along_mm, "forward_up_left_mm", "mm", "the same along the head's own axes"),
     ROW_OPTIONAL(compared_landmark, unchanged_mm, "no_change_error_mm", "mm", "distance of the actual one from before"),
+    ROW_OPTIONAL(compared_landmark, smoothed_mm, "smoothed_bone_error_mm", "mm",
+                 "distance of the actual one from where the smoothed motion of the bones takes it; of skin only"),
 };
-static const record_table landmark_table = {.title = "A landmark compared", RECORD_ROWS(landmark_row)};
+static const record_table landmark_table = {.title = "A landmark compared", RECORD_ROWS(compared_row)};
 
-static const char alignment_region[] = "forehead and nasal bridge, above N";
+const char *face_compare_aligned_on(const face_compare *c)
+{
+    return c->on == ALIGN_NONE ? "as registered: both faces taken as they lie"
+           : c->on == ALIGN_SKIN
+               ? "skin that no operation of the jaws moves: forehead, dorsum of the nose over its bones, sides of the orbits"
+           : c->one_case ? "bone: both are outcomes of one case, whose cranium stays"
+                         : "bone: the front of the cranium";
+}
 
 typedef struct alignment {
-    const char *region;
     double matrix[16], turn_deg;
-    double turn_at_chin_mm;
-    surface_fit fit;
+    face_alignment a;
 } alignment;
 
-static const record_row alignment_row[] = {
-    ROW(alignment, region, "region", NULL, "what the faces were aligned on"),
-    ROW(alignment, matrix, "matrix", NULL, "how the actual face was moved: row-major, mm"),
+static const record_row move_row[] = {
+    ROW(alignment, matrix, "matrix", NULL, "how the actual face is moved: row-major, mm"),
     ROW(alignment, turn_deg, "turn_deg", "degrees", "angle of that move"),
-    ROW(alignment, turn_at_chin_mm, "turn_at_chin_mm", "mm", "what that turn alone moves the chin by"),
-    ROW(alignment, fit.points, "points", NULL, "vertices of the region"),
-    ROW(alignment, fit.used, "used", NULL, "of them, used"),
-    ROW(alignment, fit.iterations, "iterations", NULL, "steps of the alignment"),
-    ROW(alignment, fit.rms_before_mm, "rms_before_mm", "mm", "root mean square distance before"),
-    ROW(alignment, fit.rms_after_mm, "rms_after_mm", "mm", "and after"),
+    ROW(alignment, a.turn_at_chin_mm, "turn_at_chin_mm", "mm", "what that turn alone moves the chin by"),
+    ROW(alignment, a.chin_mm, "chin_mm", "mm", "what the whole move moves the chin by"),
+    ROW(alignment, a.fit.points, "points", NULL, "vertices of the region"),
+    ROW(alignment, a.fit.used, "used", NULL, "of them, used"),
+    ROW(alignment, a.fit.iterations, "iterations", NULL, "steps of the alignment"),
+    ROW(alignment, a.fit.rms_before_mm, "rms_before_mm", "mm", "root mean square distance before"),
+    ROW(alignment, a.fit.rms_after_mm, "rms_after_mm", "mm", "and after"),
 };
-static const record_table alignment_table = {.title = "Alignment of two faces", RECORD_ROWS(alignment_row)};
+static const record_table move_table = {.title = "A move of the actual face", RECORD_ROWS(move_row)};
+
+static alignment move_of(const face_alignment *a)
+{
+    alignment out = {.turn_deg = rigid_angle(&a->fit.move) * (180 / acos(-1.0)), .a = *a};
+    rigid_to_matrix(&a->fit.move, out.matrix);
+    return out;
+}
 
 typedef struct comparison {
     const face_compare *of;
     const char *predicted, *actual, *sign;
 } comparison;
 
+static const void *move_into(const face_alignment *a, void *space)
+{
+    if (!a->known) return NULL;
+    *(alignment *)space = move_of(a);
+    return space;
+}
+
 static const void *aligned(const void *of, void *space)
 {
-    const face_compare *c = ((const comparison *)of)->of;
-    alignment *a = space;
-    if (!c->aligned) return NULL;
-    *a = (alignment){.region = alignment_region,
-                     .turn_deg = rigid_angle(&c->fit.move) * (180 / acos(-1.0)),
-                     .turn_at_chin_mm = c->turn_at_chin_mm,
-                     .fit = c->fit};
-    rigid_to_matrix(&c->fit.move, a->matrix);
-    return a;
+    return move_into(&((const comparison *)of)->of->aligned, space);
+}
+
+static const void *by_skin(const void *of, void *space)
+{
+    return move_into(&((const comparison *)of)->of->by_skin, space);
+}
+
+static const char *aligned_on(const void *of, char *space)
+{
+    (void)space;
+    return face_compare_aligned_on(((const comparison *)of)->of);
 }
 
 static const void *next_row(const void *of, prediction_kind k, int *i, const char **key)
@@ -134,6 +167,9 @@ static const void *next_landmark(const void *of, int *i, const char **key, void 
     out->error_mm = vec_norm(out->along_mm);
     bool known = c->rest_points.count && face_compare_landmark(c, &c->rest_points, *i, d);
     out->unchanged_mm = known ? vec_norm(d) : (double)NAN;
+    known = c->smoothed_points.count && face_compare_on_skin(out->label) &&
+            face_compare_landmark(c, &c->smoothed_points, *i, d);
+    out->smoothed_mm = known ? vec_norm(d) : (double)NAN;
     return out;
 }
 
@@ -150,15 +186,25 @@ static const record_row comparison_row[] = {
     ROW(comparison, predicted, "predicted", NULL, "outcome or mesh of the predicted face"),
     ROW(comparison, actual, "actual", NULL, "outcome or mesh of the actual one"),
     ROW(comparison, sign, "sign", NULL, "what the sign of a distance says"),
+    ROW_TEXT(aligned_on, "aligned_on", "what decided where the actual face lies"),
     {.kind = RECORD_OBJECT,
      .at = aligned,
-     .table = &alignment_table,
+     .table = &move_table,
      .or_null = true,
      .name = "alignment",
-     .help = "how the actual face was moved onto the predicted one"},
+     .help = "how the actual face was moved onto the predicted one; null: not at all"},
+    {.kind = RECORD_OBJECT,
+     .at = by_skin,
+     .table = &move_table,
+     .or_null = true,
+     .name = "by_skin",
+     .help = "how skin alone would move it besides, which was not done; null: skin did, or does not tell"},
     REGIONS(next_predicted, "regions.prediction", NULL, "distances of the prediction"),
-    REGIONS(next_no_change, "regions.no_change", has_trivial, "distances of the skin before"),
-    REGIONS(next_smoothed, "regions.smoothed_bone", has_trivial, "distances of skin that follows the bone below it"),
+    REGIONS(next_no_change, "regions.no_change", has_trivial, "distances of the skin before, unchanged"),
+    REGIONS(
+        next_smoothed, "regions.smoothed_bone", has_trivial,
+        "distances of the skin before moved by 0.85 of the bones' own moves, of the 40 nearest bone vertices, smoothed "
+        "over 12 mm (Gaussian)"),
     {.kind = RECORD_LIST,
      .next = next_landmark,
      .item = RECORD_OBJECT,

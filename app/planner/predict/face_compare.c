@@ -4,6 +4,7 @@
 #include "geometry/mesh_file.h"
 #include "geometry/smoothed_motion.h"
 #include "geometry/vec.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,8 +17,38 @@ void face_compare_free(face_compare *c)
     landmarks_free(&c->points);
     landmarks_free(&c->actual_points);
     landmarks_free(&c->rest_points);
+    landmarks_free(&c->smoothed_points);
+    surface_free(&c->cranium);
+    surface_free(&c->actual_cranium);
     face_map_free(&c->map);
     *c = (face_compare){0};
+}
+
+static const char *case_hash(const outcome_record *r)
+{
+    return json_string_value(json_object_get(r->file.root, "case_hash"));
+}
+
+/* The skin and its landmarks before, as they follow the bones that the prediction moves. */
+static bool follow_bones(const segments *at_rest, const rigid move[SEGMENT_COUNT], face_compare *c, err *e)
+{
+    landmarks *l = &c->smoothed_points;
+    surface at = surface_new(c->rest_points.count, 0);
+    double *after = NEW_ARRAY(double, 3 * (size_t)at.vertex_count);
+    uint8_t *all = NEW_ARRAY(uint8_t, at.vertex_count);
+    *l = landmarks_copy(&c->rest_points);
+    for (int32_t i = 0; i < l->count; i++) {
+        vec_copy(l->point[i].xyz, at.xyz + 3 * (size_t)i);
+        all[i] = face_compare_on_skin(l->point[i].label);
+    }
+    c->skin[SMOOTHED_BONE] = surface_copy(&c->skin[NO_CHANGE]);
+    bool ok = smoothed_motion(&at, all, at_rest, move, after, e) &&
+              smoothed_motion(&c->skin[NO_CHANGE], c->map.region, at_rest, move, c->skin[SMOOTHED_BONE].xyz, e);
+    for (int32_t i = 0; ok && i < l->count; i++) vec_copy(after + 3 * (size_t)i, l->point[i].xyz);
+    free(after);
+    free(all);
+    surface_free(&at);
+    return ok;
 }
 
 static bool load_outcome(const char *folder, face_compare *c, err *e)
@@ -37,8 +68,9 @@ static bool load_outcome(const char *folder, face_compare *c, err *e)
         c->points = landmarks_copy(&r.after);
         c->rest_points = landmarks_copy(&r.before);
         c->frame = r.frame;
-        c->skin[SMOOTHED_BONE] = surface_copy(&c->skin[NO_CHANGE]);
-        ok = smoothed_motion(&c->skin[NO_CHANGE], c->map.region, &at_rest, move, c->skin[SMOOTHED_BONE].xyz, e);
+        snprintf(c->case_hash, sizeof c->case_hash, "%s", case_hash(&r) ? case_hash(&r) : "");
+        c->cranium = surface_copy(&at_rest.part[SEGMENT_CRANIUM]);
+        ok = follow_bones(&at_rest, move, c, e);
     }
     outcome_record_free(&r);
     segments_free(&at_rest);
@@ -55,18 +87,34 @@ static bool load_mesh(const face_compare_input *in, face_compare *c, err *e)
            face_map_make(&c->skin[PREDICTED], &c->points, &c->map, e);
 }
 
-static bool load_actual(const face_compare_input *in, surface *skin, landmarks *points, err *e)
+/* Skin, landmarks and cranium of another outcome. */
+static bool load_actual_outcome(const face_compare_input *in, face_compare *c, surface *skin, err *e)
+{
+    outcome_record r = {0};
+    segments at_rest = {0};
+    rigid move[SEGMENT_COUNT];
+    bool ok = outcome_record_read(in->actual, &r, e) && outcome_skin_read(in->actual, true, skin, e);
+    if (ok && !in->actual_landmarks) c->actual_points = landmarks_copy(&r.after);
+    c->one_case = ok && *c->case_hash && case_hash(&r) && !strcmp(c->case_hash, case_hash(&r));
+    if (ok && !c->one_case && c->cranium.vertex_count) {
+        ok = outcome_segments_read(in->actual, &r, &at_rest, move, e);
+        if (ok) c->actual_cranium = surface_copy(&at_rest.part[SEGMENT_CRANIUM]);
+    }
+    outcome_record_free(&r);
+    segments_free(&at_rest);
+    return ok;
+}
+
+static bool load_actual(const face_compare_input *in, face_compare *c, surface *skin, err *e)
 {
     bool outcome = is_outcome(in->actual);
-    if (outcome) {
-        outcome_record r = {0};
-        if (!outcome_record_read(in->actual, &r, e)) return false;
-        if (!in->actual_landmarks) *points = landmarks_copy(&r.after);
-        outcome_record_free(&r);
-    }
-    return (outcome ? outcome_skin_read(in->actual, true, skin, e)
+    if (outcome && in->actual_skull)
+        return err_set(e, ERR_USAGE, "%s is an outcome and has its own skull: leave --actual-skull out", in->actual);
+    return (outcome ? load_actual_outcome(in, c, skin, e)
                     : mesh_read_surface(in->actual, MESH_SPACE_FROM_FILE, skin, NULL, e)) &&
-           (!in->actual_landmarks || landmarks_read(in->actual_landmarks, points, NULL, e));
+           (!in->actual_skull ||
+            mesh_read_surface(in->actual_skull, MESH_SPACE_FROM_FILE, &c->actual_cranium, NULL, e)) &&
+           (!in->actual_landmarks || landmarks_read(in->actual_landmarks, &c->actual_points, NULL, e));
 }
 
 static void summarise(face_compare *c, int k)
@@ -81,36 +129,9 @@ static void summarise(face_compare *c, int k)
     free(face);
 }
 
-/* How far the turn of the alignment alone, about the middle of the stable skin, moves the chin. */
-static double turn_at_chin(const face_compare *c)
+static bool measure(face_compare *c, surface *actual, compare_align how, err *e)
 {
-    const surface *s = &c->skin[PREDICTED];
-    double middle[2][3] = {{0}}, arm[3], turned[3], count[2] = {0};
-    for (int32_t v = 0; v < s->vertex_count; v++) {
-        bool chin = c->map.region[v] == FACE_CHIN;
-        if (!chin && !c->map.stable[v]) continue;
-        vec_add(middle[chin], s->xyz + 3 * (size_t)v, middle[chin]);
-        count[chin]++;
-    }
-    for (int k = 0; k < 2; k++) vec_scale(middle[k], 1 / count[k], middle[k]);
-    vec_sub(middle[1], middle[0], arm);
-    rigid_rotate(&c->fit.move, arm, turned);
-    return vec_distance(arm, turned);
-}
-
-static bool measure(face_compare *c, surface *actual, bool align, err *e)
-{
-    /* What the jaws do not move is the same in all predictions. */
-    if (align) {
-        if (!face_fit(actual, &c->skin[PREDICTED], &c->map, &c->fit, e)) return false;
-        c->aligned = true;
-        c->turn_at_chin_mm = turn_at_chin(c);
-        surface_transform(actual, &c->fit.move);
-        for (int32_t i = 0; i < c->actual_points.count; i++) {
-            double *p = c->actual_points.point[i].xyz;
-            rigid_apply(&c->fit.move, p, p);
-        }
-    }
+    if (!face_compare_align(how, c, actual, e)) return false;
     for (int k = 0; k < c->predictions; k++) {
         face_outward(&c->skin[k], &c->map, c->frame.posterior); /* a sign is "in front", whatever the triangles */
         c->signed_mm[k] = NEW_ARRAY(double, c->skin[k].vertex_count);
@@ -131,7 +152,7 @@ bool face_compare_make(const face_compare_input *in, face_compare *out, err *e)
         return err_set(e, ERR_USAGE, "%s is an outcome and has its own landmarks: leave --landmarks out",
                        in->predicted);
     bool ok = (outcome ? load_outcome(in->predicted, &c, e) : load_mesh(in, &c, e)) &&
-              load_actual(in, &actual, &c.actual_points, e) && measure(&c, &actual, in->align, e);
+              load_actual(in, &c, &actual, e) && measure(&c, &actual, in->align, e);
     surface_free(&actual);
     if (ok)
         *out = c;

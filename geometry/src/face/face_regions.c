@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double nose_margin_mm = 2, stable_height_mm = 60;
+static const double nose_margin_mm = 2, stable_height_mm = 60, dorsum_share = 1 / 3.0, dorsum_half_mm = 8, rim_mm = 10;
 
 const char *face_region_name(face_region r)
 {
@@ -35,8 +35,8 @@ static bool place(const landmarks *l, const head_frame *f, const char *label, co
 
 typedef struct borders {
     double nasion, orbitale, subnasale, stomion, fold, menton; /* up */
-    double back;                                               /* posterior */
-    double nose[2], mouth[2], middle;                          /* left: right border, left border */
+    double back, menton_back, nasion_back;                     /* posterior */
+    double nose[2], mouth[2], middle, orbit;                   /* left: right border, left border */
 } borders;
 
 static bool find_borders(const landmarks *l, const head_frame *f, borders *b, err *e)
@@ -58,6 +58,9 @@ static bool find_borders(const landmarks *l, const head_frame *f, borders *b, er
                    .fold = fold[2],
                    .menton = me[2],
                    .back = orb[1] / 2,
+                   .menton_back = me[1],
+                   .nasion_back = n[1],
+                   .orbit = fabs(orb[0] - sn[0]),
                    .middle = sn[0],
                    .nose = {al[0][0] - nose_margin_mm, al[1][0] + nose_margin_mm},
                    .mouth = {ch[0][0], ch[1][0]}};
@@ -77,9 +80,21 @@ static face_region region_of(const borders *b, const double p[3])
         if (left > b->nose[0] && left < b->nose[1]) return FACE_NOSE;
         if (up > b->orbitale) return FACE_OUTSIDE;
     } else if (left > b->mouth[0] && left < b->mouth[1]) {
-        return up > b->stomion ? FACE_UPPER_LIP : up > b->fold ? FACE_LOWER_LIP : FACE_CHIN;
+        if (up > b->fold) return up > b->stomion ? FACE_UPPER_LIP : FACE_LOWER_LIP;
+        return p[1] - b->menton_back > up - b->menton ? FACE_OUTSIDE : FACE_CHIN;
     }
     return left > b->middle ? FACE_CHEEK_LEFT : FACE_CHEEK_RIGHT;
+}
+
+/* What no operation of the jaws moves. */
+static bool is_stable(const borders *b, const double p[3])
+{
+    double aside = fabs(p[0] - b->middle);
+    if (p[1] > b->back || p[2] > b->nasion + stable_height_mm) return false;
+    if (p[2] > b->nasion) return true;
+    bool dorsum = aside < dorsum_half_mm && p[2] > b->nasion - dorsum_share * (b->nasion - b->subnasale) &&
+                  p[1] < b->nasion_back + dorsum_half_mm;
+    return dorsum || (aside > b->orbit + rim_mm && p[2] > b->orbitale);
 }
 
 bool face_map_make(const surface *skin, const landmarks *l, face_map *out, err *e)
@@ -94,7 +109,7 @@ bool face_map_make(const surface *skin, const landmarks *l, face_map *out, err *
         head_frame_to_local(&f, skin->xyz + 3 * (size_t)v, p);
         m.region[v] = (uint8_t)region_of(&b, p);
         m.lower[v] = m.region[v] != FACE_OUTSIDE && p[2] <= b.subnasale;
-        m.stable[v] = p[1] < b.back && p[2] > b.nasion && p[2] < b.nasion + stable_height_mm;
+        m.stable[v] = is_stable(&b, p);
     }
     *out = m;
     return true;
