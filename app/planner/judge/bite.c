@@ -1,5 +1,6 @@
 /* How the teeth and the midlines stand as planned, from landmarks alone. */
 #include "app/planner/judge/parts.h"
+#include "geometry/molar.h"
 #include "geometry/vec.h"
 
 enum { ACROSS, BACK, UP }; /* axes of the head frame */
@@ -48,22 +49,61 @@ static void judge_incisors(const judge *j, const plan_moves *m, judgement *out)
     add(j, out, LIMIT_DENTAL_MIDLINE, there ? l1[ACROSS] - u1[ACROSS] : (double)NAN, there ? NULL : apart);
 }
 
-/* The cant of the bite, by the first molars, which are farther apart, or else by the canines. */
+/* The cant of the bite, by the same tooth of both sides: the first molars, the next that are there, or the canines. */
 static void judge_cant(const judge *j, const plan_moves *m, judgement *out)
 {
+    static const struct {
+        char tooth;
+        const char *note;
+    } notes[] = {{'7', "by the second molars: the case has not both first ones"},
+                 {'5', "by the second premolars: the case has not both first molars"},
+                 {'4', "by the first premolars: the case has not both first molars"},
+                 {'3', "by the canines: the case has not both first molars"}};
+    const landmarks *l = &j->prepared->points;
+    const landmark *pair[2];
+    const char *note = NULL;
     double left[3], right[3];
-    bool there = planned(j, m, "U6_L", left) && planned(j, m, "U6_R", right), canines = false;
-    if (!there) canines = there = planned(j, m, "U3_L", left) && planned(j, m, "U3_R", right);
+    if (!molar_pair(l, true, pair)) {
+        pair[0] = landmarks_find(l, "U3_L");
+        pair[1] = landmarks_find(l, "U3_R");
+    }
+    bool there = pair[0] && pair[1] && planned(j, m, pair[0]->label, left) && planned(j, m, pair[1]->label, right);
+    for (int i = 0; there && i < 4; i++)
+        if (pair[0]->label[1] == notes[i].tooth) note = notes[i].note;
     double cant = there ? atan2(right[UP] - left[UP], left[ACROSS] - right[ACROSS]) : (double)NAN;
     add(j, out, LIMIT_OCCLUSAL_CANT, cant * 180 / M_PI,
-        !there    ? "needs U6_L and U6_R, or U3_L and U3_R"
-        : canines ? "by the canines: the case has no first molars"
-                  : NULL);
+        there ? note : "needs the same tooth left and right: U6, U7, U5, U4 or U3");
+}
+
+/* Where a first molar, or what stands for it, is as planned. */
+static bool planned_molar(const judge *j, const plan_moves *m, int side, double local[3], bool *stands_in)
+{
+    const landmarks *l = &j->prepared->points;
+    molar at;
+    double p[3];
+    if (!molar_find(l, true, side, &at)) return false;
+    rigid_apply(&m->move[j->carrier[landmarks_find(l, at.by) - l->point]], at.xyz, p);
+    head_frame_to_local(&j->prepared->frame, p, local);
+    *stands_in |= at.stands_in;
+    return true;
+}
+
+static void judge_plane(const judge *j, const plan_moves *m, judgement *out)
+{
+    double a[3], b[3], c[3];
+    bool stands_in = false, there = planned(j, m, "U1", a) && planned_molar(j, m, 1, b, &stands_in) &&
+                                    planned_molar(j, m, -1, c, &stands_in);
+    double drop = there ? (b[UP] + c[UP]) / 2 - a[UP] : (double)NAN,
+           reach = there ? (b[BACK] + c[BACK]) / 2 - a[BACK] : 1;
+    judgement_add(out, j->patient, LIMIT_OCCLUSAL_PLANE, "", atan2(drop, reach) * 180 / M_PI, stands_in,
+                  !there      ? "needs U1 and, on both sides, U6 or the next tooth"
+                  : stands_in ? "a first molar is missing: by the next tooth"
+                              : NULL);
 }
 
 void judge_bite(const judge *j, const plan_moves *m, judgement *out)
 {
-    double a[3], b[3], c[3];
+    double a[3], b[3];
     judge_incisors(j, m, out);
     bool there = planned(j, m, "U1", a) && planned(j, m, "N", b); /* the face's midline runs through N */
     add(j, out, LIMIT_UPPER_MIDLINE, there ? a[ACROSS] - b[ACROSS] : (double)NAN, there ? NULL : "needs U1 and N");
@@ -71,9 +111,6 @@ void judge_bite(const judge *j, const plan_moves *m, judgement *out)
     add(j, out, LIMIT_CHIN_DEVIATION, there ? a[ACROSS] - b[ACROSS] : (double)NAN, there ? NULL : "needs Me and N");
     there = planned(j, m, "U3_L", a) && planned(j, m, "U3_R", b);
     add(j, out, LIMIT_CANINE_YAW, there ? a[BACK] - b[BACK] : (double)NAN, there ? NULL : "needs U3_L and U3_R");
-    there = planned(j, m, "U1", a) && planned(j, m, "U6_L", b) && planned(j, m, "U6_R", c);
-    double drop = there ? (b[UP] + c[UP]) / 2 - a[UP] : (double)NAN,
-           reach = there ? (b[BACK] + c[BACK]) / 2 - a[BACK] : 1;
-    add(j, out, LIMIT_OCCLUSAL_PLANE, atan2(drop, reach) * 180 / M_PI, there ? NULL : "needs U1, U6_L and U6_R");
+    judge_plane(j, m, out);
     judge_cant(j, m, out);
 }

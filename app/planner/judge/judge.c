@@ -1,6 +1,7 @@
 #include "app/planner/judge/judge.h"
 #include "app/planner/judge/parts.h"
 #include "geometry/mem.h"
+#include "geometry/molar.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -25,17 +26,21 @@ static void find_carriers(judge *j)
 static void find_bite(judge *j)
 {
     const double apart_mm = 3;
-    static const char *const pair[3][2] = {{"U6_L", "L6_L"}, {"U6_R", "L6_R"}, {"U1", "L1"}};
     const landmarks *l = &j->prepared->points;
-    double sum = 0;
+    const landmark *front[2] = {landmarks_find(l, "U1"), landmarks_find(l, "L1")};
+    double sum = 0, d[3];
     int count = 0;
-    for (int i = 0; i < (count ? 2 : 3); i++) { /* incisors only where no molars are */
-        const landmark *upper = landmarks_find(l, pair[i][0]), *lower = landmarks_find(l, pair[i][1]);
-        double d[3];
-        if (!upper || !lower) continue;
-        vec_sub(upper->xyz, lower->xyz, d);
+    for (int side = 1; side >= -1; side -= 2) {
+        molar upper, lower;
+        if (!molar_find(l, true, side, &upper) || !molar_find(l, false, side, &lower)) continue;
+        vec_sub(upper.xyz, lower.xyz, d);
         sum += vec_dot(d, j->prepared->frame.up);
         count++;
+    }
+    if (!count && front[0] && front[1]) { /* incisors only where no molars are */
+        vec_sub(front[0]->xyz, front[1]->xyz, d);
+        sum = vec_dot(d, j->prepared->frame.up);
+        count = 1;
     }
     j->jaws_apart = count && sum / count > apart_mm;
 }

@@ -2,6 +2,7 @@
  * within a crown's height of the plane through the cusps, in front of the last molar. */
 #include "app/planner/judge/parts.h"
 #include "geometry/mem.h"
+#include "geometry/molar.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -13,21 +14,20 @@ static const double touch_mm = 0.3, sight_mm = 10, bite_spacing_mm = 0.8, apart_
 static bool cusp_plane(const prepared *p, bool upper, double at[3], double up[3], double *end)
 {
     const landmarks *l = &p->points;
-    const landmark *front = landmarks_find(l, upper ? "U1" : "L1"), *left = landmarks_find(l, upper ? "U6_L" : "L6_L"),
-                   *right = landmarks_find(l, upper ? "U6_R" : "L6_R");
-    if (!front || !left || !right) return false;
+    const landmark *front = landmarks_find(l, upper ? "U1" : "L1");
+    molar first[2];
+    if (!front || !molar_find(l, upper, 1, &first[0]) || !molar_find(l, upper, -1, &first[1])) return false;
     double back[3], across[3], local[3];
-    for (int c = 0; c < 3; c++) back[c] = (left->xyz[c] + right->xyz[c]) / 2 - front->xyz[c];
-    vec_sub(left->xyz, right->xyz, across);
+    for (int c = 0; c < 3; c++) back[c] = (first[0].xyz[c] + first[1].xyz[c]) / 2 - front->xyz[c];
+    vec_sub(first[0].xyz, first[1].xyz, across);
     vec_cross(across, back, up);
     if (!(vec_normalize(up) > 0)) return false;
     vec_copy(front->xyz, at);
     *end = -HUGE_VAL;
-    static const char *const last[2][2] = {{"L7_L", "L7_R"}, {"U6_L", "U6_R"}};
     for (int k = 0; k < 2; k++) {
-        const landmark *m = landmarks_find(l, last[upper][k]);
-        const double reach = m ? upper ? behind_u6_mm : behind_l7_mm : behind_u6_mm + 2;
-        head_frame_to_local(&p->frame, m ? m->xyz : k ? right->xyz : left->xyz, local);
+        const landmark *last = upper ? NULL : landmarks_find(l, k ? "L7_R" : "L7_L");
+        const double reach = upper ? behind_u6_mm : last ? behind_l7_mm : behind_u6_mm + 2;
+        head_frame_to_local(&p->frame, last ? last->xyz : first[k].xyz, local);
         *end = fmax(*end, local[1] + reach);
     }
     return true;
@@ -39,8 +39,8 @@ uint8_t *judge_crowns(const prepared *p, segment_id bone, const char **why)
     const surface *s = &p->segments.part[bone];
     double at[3], up[3], end;
     if (!cusp_plane(p, upper, at, up, &end)) {
-        *why = upper ? "the upper crowns are not known: needs U1, U6_L and U6_R"
-                     : "the lower crowns are not known: needs L1, L6_L and L6_R";
+        *why = upper ? "the upper crowns are not known: needs U1 and, on both sides, U6 or the next tooth"
+                     : "the lower crowns are not known: needs L1 and, on both sides, L6 or the next tooth";
         return NULL;
     }
     uint8_t *kind = NEW_ARRAY(uint8_t, s->triangle_count);

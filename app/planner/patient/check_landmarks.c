@@ -2,17 +2,38 @@
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
 #include "geometry/mem.h"
+#include "geometry/molar.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* All of the labels in `words`, separated by spaces, are there. */
+/* Of the labels in `words` all are there, or all of one alternative. */
 static bool all_there(const landmarks *l, const char *words)
 {
     char copy[128];
+    bool there = true;
     snprintf(copy, sizeof copy, "%s", words);
-    for (char *save, *w = strtok_r(copy, " ", &save); w; w = strtok_r(NULL, " ", &save))
-        if (!landmarks_find(l, w)) return false;
-    return true;
+    for (char *save, *w = strtok_r(copy, " ", &save); w; w = strtok_r(NULL, " ", &save)) {
+        if (!strcmp(w, "or")) {
+            if (there) return true;
+            there = true;
+        } else if (!landmarks_find(l, w))
+            there = false;
+    }
+    return there;
+}
+
+/* A first molar that is missing, where the next tooth tells its place. */
+static void check_molars(const case_file *c, const landmarks *l, issue_list *issues)
+{
+    for (int i = 0; i < landmark_row_count; i++) {
+        const landmark_row *r = &landmark_rows[i];
+        molar m;
+        bool first = !strncmp(r->label, "U6_", 3) || !strncmp(r->label, "L6_", 3);
+        if (!first || !landmark_is_needed(r, c) || landmarks_find(l, r->label)) continue;
+        if (molar_find(l, r->label[0] == 'U', r->label[3] == 'L' ? 1 : -1, &m))
+            issue_add(issues, ISSUE_WARNING, ERR_INPUT, c->landmarks, 0, r->label,
+                      "is missing (%s): its place is estimated from %s; no root is looked for there", r->help, m.by);
+    }
 }
 
 static bool is_missing(const landmark_row *r, const landmarks *l)
@@ -42,6 +63,7 @@ static void check_set(const case_file *c, const landmarks *l, issue_list *issues
             issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, both, "is missing (%s); lost: %s", r->help,
                       r->lost);
     }
+    check_molars(c, l, issues);
     char unknown[600] = "";
     int count = 0;
     for (int32_t i = 0; i < l->count; i++) {

@@ -24,7 +24,12 @@ static const struct order_row {
     {"G'", "N'", ABOVE, 0},        {"N'", "Pn", ABOVE, 0},        {"Pn", "Sn", IN_FRONT, 0},
     {"Sn", "Ls", ABOVE, 0},        {"Ls", "Li_soft", ABOVE, 0},   {"Li_soft", "B'", ABOVE, 0},
     {"B'", "Pg'", ABOVE, 0},       {"Pg'", "Me'", ABOVE, 0},      {"Stms", "Stmi", ABOVE, 0},
-    {"Pn", "T_L", IN_FRONT, 0},    {"Pn", "T_R", IN_FRONT, 0},
+    {"Pn", "T_L", IN_FRONT, 0},    {"Pn", "T_R", IN_FRONT, 0},    {"U4_L", "U5_L", IN_FRONT, 0},
+    {"U4_R", "U5_R", IN_FRONT, 0}, {"U5_L", "U6_L", IN_FRONT, 0}, {"U5_R", "U6_R", IN_FRONT, 0},
+    {"U5_L", "U7_L", IN_FRONT, 0}, {"U5_R", "U7_R", IN_FRONT, 0}, {"U6_L", "U7_L", IN_FRONT, 0},
+    {"U6_R", "U7_R", IN_FRONT, 0}, {"L4_L", "L5_L", IN_FRONT, 0}, {"L4_R", "L5_R", IN_FRONT, 0},
+    {"L5_L", "L6_L", IN_FRONT, 0}, {"L5_R", "L6_R", IN_FRONT, 0}, {"L5_L", "L7_L", IN_FRONT, 0},
+    {"L5_R", "L7_R", IN_FRONT, 0},
 };
 
 void check_order(const case_file *c, const check_found *found, issue_list *issues)

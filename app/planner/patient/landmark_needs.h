@@ -13,7 +13,7 @@ enum {                     /* bits */
 typedef struct landmark_row {
     const char *label;
     unsigned need;
-    const char *instead; /* labels, separated by spaces, that together do as well; NULL: none */
+    const char *instead; /* labels that together do as well, or alternatives, split by " or "; NULL: none */
     case_surface on;     /* the surface it lies on; CASE_SURFACE_COUNT: inside the head */
     const char *help;    /* what it is */
     const char *lost;    /* what is lost without it; NULL for required ones */

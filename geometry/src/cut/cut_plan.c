@@ -1,5 +1,6 @@
 #include "geometry/src/cut/cut_plan.h"
 #include "geometry/mem.h"
+#include "geometry/molar.h"
 #include "geometry/vec.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -22,11 +23,26 @@ cut_bodies cut_bodies_from(const cutter *c, double kerf_mm)
                         .sheet = cutter_sheet(c)};
 }
 
+bool landmark_point(const landmarks *l, const char *label, double out[3])
+{
+    const landmark *p = landmarks_find(l, label);
+    molar m;
+    bool first_molar = !strncmp(label, "U6_", 3) || !strncmp(label, "L6_", 3);
+    if (p)
+        vec_copy(p->xyz, out);
+    else if (first_molar && strlen(label) == 4 && molar_find(l, label[0] == 'U', label[3] == 'L' ? 1 : -1, &m))
+        vec_copy(m.xyz, out);
+    else
+        return false;
+    return true;
+}
+
 bool need_landmarks(const landmarks *l, const char *what, const char *const *labels, err *e)
 {
     char missing[400] = "";
+    double at[3];
     for (int i = 0; labels[i]; i++)
-        if (!landmarks_find(l, labels[i])) {
+        if (!landmark_point(l, labels[i], at)) {
             size_t used = strlen(missing);
             snprintf(missing + used, sizeof missing - used, "%s%s", used ? ", " : "", labels[i]);
         }
@@ -36,9 +52,10 @@ bool need_landmarks(const landmarks *l, const char *what, const char *const *lab
 
 bool landmark_local(const landmarks *l, const char *label, const head_frame *f, double local[3])
 {
-    const landmark *p = landmarks_find(l, label);
-    if (p) head_frame_to_local(f, p->xyz, local);
-    return p != NULL;
+    double at[3];
+    if (!landmark_point(l, label, at)) return false;
+    head_frame_to_local(f, at, local);
+    return true;
 }
 
 const char *side_label(char buffer[LANDMARK_LABEL_SIZE], const char *base, int side)
@@ -51,10 +68,10 @@ bool jaw_frame(const landmarks *l, head_frame *out, err *e)
 {
     static const char *const needed[] = {"L1", "L6_L", "L6_R", NULL}, *const pairs[] = {"L6", "Go", "RA", "RP", "Co"};
     if (!need_landmarks(l, "the frame of the mandible", needed, e)) return false;
-    const double *front = landmarks_find(l, "L1")->xyz, *left = landmarks_find(l, "L6_L")->xyz,
-                 *right = landmarks_find(l, "L6_R")->xyz;
+    const double *front = landmarks_find(l, "L1")->xyz;
     head_frame f = {0};
-    double middle[3], back[3], across[3];
+    double middle[3], back[3], across[3], left[3], right[3];
+    (void)(landmark_point(l, "L6_L", left) && landmark_point(l, "L6_R", right)); /* needed above */
     for (int c = 0; c < 3; c++) middle[c] = (left[c] + right[c]) / 2;
     vec_sub(middle, front, back);
     vec_sub(left, right, across);

@@ -99,8 +99,11 @@ static bool find_places(jaw_side *j, err *e)
 {
     char label[LANDMARK_LABEL_SIZE];
     double *const place[] = {j->l6, j->l7, j->go, j->sn, j->ra, j->rp};
-    for (int k = 0; k < 6; k++)
-        jaw_side_local(j, landmarks_find(j->in->points, side_label(label, labels[k], j->side))->xyz, place[k]);
+    for (int k = 0; k < 6; k++) {
+        double at[3];
+        (void)landmark_point(j->in->points, side_label(label, labels[k], j->side), at); /* jaw_side_needs */
+        jaw_side_local(j, at, place[k]);
+    }
     find_extent(j);
     if (!(j->l6[0] > 0 && j->go[0] > 0 && j->ra[1] < j->rp[1] && j->l6[1] < j->ra[1]))
         return err_set(e, ERR_INPUT, "BSSO %s: L6, RA, RP, Go are not where a mandible has them", jaw_side_word(j));

@@ -4,6 +4,7 @@
  * landmark, so that septum and lateral nasal walls are cut by the same sheet. */
 #include "geometry/mem.h"
 #include "geometry/src/cut/cut_plan.h"
+#include "geometry/molar.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 
@@ -108,13 +109,14 @@ typedef struct root_axes { /* unit, from cusp to root tip */
  * incisor. */
 static root_axes find_axes(const landmarks *l, const head_frame *f, cut_report *r)
 {
-    const double *u1 = landmarks_find(l, "U1")->xyz, *left = landmarks_find(l, "U6_L")->xyz,
-                 *right = landmarks_find(l, "U6_R")->xyz;
+    const double *u1 = landmarks_find(l, "U1")->xyz;
+    molar left, right;
+    (void)(molar_find(l, true, 1, &left) && molar_find(l, true, -1, &right)); /* le_fort_bodies asked for them */
     const landmark *apex = landmarks_find(l, "U1_apex");
     root_axes a;
     double across[3], back[3];
-    vec_sub(left, right, across);
-    for (int c = 0; c < 3; c++) back[c] = (left[c] + right[c]) / 2 - u1[c];
+    vec_sub(left.xyz, right.xyz, across);
+    for (int c = 0; c < 3; c++) back[c] = (left.xyz[c] + right.xyz[c]) / 2 - u1[c];
     vec_cross(across, back, a.molar);
     vec_normalize(a.molar);
     if (apex)
@@ -163,7 +165,13 @@ static int root_probes(const landmarks *l, const head_frame *f, const root_axes 
     for (int c = 0; c < 3; c++) step[c] = f->posterior[c] + 0.15 * side * f->left[c];
     vec_axpy(step, -vec_dot(step, axes->molar), axes->molar, step);
     vec_normalize(step);
-    vec_axpy(landmarks_find(l, side_label(label, "U6", side))->xyz, UPPER_M1_WIDTH_MM, step, p->at);
+    const landmark *second = landmarks_find(l, side_label(label, "U7", side));
+    molar first;
+    (void)molar_find(l, true, side, &first);
+    if (second)
+        vec_copy(second->xyz, p->at);
+    else
+        vec_axpy(first.xyz, UPPER_M1_WIDTH_MM, step, p->at);
     vec_axpy(p->at, UPPER_7_MM, axes->molar, p->at);
     return count;
 }

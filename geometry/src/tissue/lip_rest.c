@@ -1,6 +1,7 @@
 #include "geometry/lip_rest.h"
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
+#include "geometry/molar.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -17,13 +18,13 @@ typedef struct front {
 
 static bool find_front(const landmarks *l, const head_frame *f, double depth_mm, front *out)
 {
-    const landmark *incisor = landmarks_find(l, "L1"), *left = landmarks_find(l, "L6_L"),
-                   *right = landmarks_find(l, "L6_R");
+    const landmark *incisor = landmarks_find(l, "L1");
+    molar left, right;
     double a[3], b[3], c[3];
-    if (!incisor || !left || !right) return false;
+    if (!incisor || !molar_find(l, false, 1, &left) || !molar_find(l, false, -1, &right)) return false;
     head_frame_to_local(f, incisor->xyz, a);
-    head_frame_to_local(f, left->xyz, b);
-    head_frame_to_local(f, right->xyz, c);
+    head_frame_to_local(f, left.xyz, b);
+    head_frame_to_local(f, right.xyz, c);
     *out = (front){.back = (b[1] + c[1]) / 2, .top = a[2], .bottom = a[2] - depth_mm};
     return true;
 }
