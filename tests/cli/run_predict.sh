@@ -106,6 +106,7 @@ cmp "$work/out/tissue.vtu" "$work/again/tissue.vtu" || fail "the same plan gave 
 "$gnathos" ceph "$work/out" >"$work/ceph.txt" && grep -q planned "$work/ceph.txt" || fail "no cephalometry"
 "$gnathos" compare "$work/out" "$work/again" --json >"$work/same.json"
 "$gnathos" compare "$work/out" "$work/out/skin_before.ply" --json >"$work/before.json"
+if [ -z "$pictures" ]; then /usr/bin/python3 "$(dirname "$0")/turned_face.py" "$gnathos" "$work/out" "$work"; fi
 "$gnathos" compare "$work/out" "$work/again" -o "$work/compared" $pictures --json >"$work/compared.json"
 cmp "$work/compared.json" "$work/compared/comparison.json" || fail "compare prints another record than it writes"
 "$gnathos" ceph "$work/out" --json >"$work/ceph.json"

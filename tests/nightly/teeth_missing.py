@@ -1,10 +1,10 @@
-"""teeth_missing.py GNATHOS WORK: makes the synthetic class III head, takes landmarks of teeth away in several ways, puts those
+"""teeth_missing.py GNATHOS WORK [WAY...]: makes the synthetic class III head, takes landmarks of teeth away in several ways, puts those
 of the next teeth there where they are known, and prints how the cuts and the judgement of a plan change: what is
 measured otherwise, what is left out by name, what is refused. Ends with an error where a value changes by more than its
 bound and nothing says why."""
 import json, os, shutil, subprocess, sys
 
-gnathos, work = sys.argv[1:]
+gnathos, work, *only = sys.argv[1:]
 base = os.path.join(work, "base")
 if not os.path.exists(base):
     subprocess.check_call([gnathos, "new", base, "--norm", "--class", "3", "-q"])
@@ -57,6 +57,7 @@ ways = {
 whole = None
 print("%-12s %8s %8s %8s %9s  %s" % ("without", "changed", "most", "left out", "contacts", "what"))
 for name, (gone, new) in ways.items():
+    if only and name not in only: continue
     limits, refusal = judged(case(name.replace(" ", "_").replace(",", ""), gone, new))
     if limits is None:
         print("%-12s refused: %s" % (name, refusal))

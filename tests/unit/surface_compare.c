@@ -179,22 +179,29 @@ static void the_regions_part_the_face_and_lie_where_their_names_say(void **state
     landmarks l = face_of_the_egg();
     face_map m;
     assert_ok(face_map_make(&s, &l, &m, &e));
-    int32_t count[FACE_REGION_COUNT] = {0}, lower = 0, stable = 0;
+    int32_t count[FACE_REGION_COUNT] = {0}, lower = 0, stable = 0, part[2] = {0};
     for (int32_t v = 0; v < m.vertex_count; v++) {
         const double *p = s.xyz + 3 * (size_t)v;
         assert_true(m.region[v] < FACE_REGION_COUNT);
         count[m.region[v]]++;
         lower += m.lower[v];
         stable += m.stable[v];
-        if (m.region[v] != FACE_OUTSIDE) assert_true(p[1] <= -30 && p[2] <= 30 && p[2] > -75 && !m.stable[v]);
+        if (m.region[v] != FACE_OUTSIDE) assert_true(p[1] <= -30 && p[2] <= 30 && p[2] > -75);
         if (m.lower[v]) assert_true(p[2] <= -10 && m.region[v] != FACE_NOSE);
         if (m.region[v] == FACE_UPPER_LIP) assert_true(p[2] > -30 && p[2] <= -10 && fabs(p[0]) < 25);
         if (m.region[v] == FACE_LOWER_LIP) assert_true(p[2] > -45 && p[2] <= -30 && fabs(p[0]) < 25);
         if (m.region[v] == FACE_CHEEK_LEFT) assert_true(p[0] > 0 && p[2] <= 20);
-        if (m.stable[v]) assert_true(p[2] > 30 && p[1] < -30);
+        if (m.region[v] == FACE_CHIN) assert_true(p[1] + 50 <= p[2] + 75); /* not the skin below it */
+        if (m.stable[v] && p[2] <= 30) {                                   /* below the forehead */
+            bool dorsum = fabs(p[0]) < 8 && p[2] > 30 - 40 / 3.0 && p[1]<-62, rim = fabs(p[0])> 40 && p[2] > 20;
+            assert_true(dorsum || rim);
+            part[dorsum]++;
+        }
+        if (m.stable[v]) assert_true(p[1] < -30 && p[2] <= 90);
     }
     for (int r = 0; r < FACE_REGION_COUNT; r++) assert_true(count[r] > 0);
     assert_int_equal(count[FACE_CHEEK_LEFT], count[FACE_CHEEK_RIGHT]);
+    assert_true(part[0] > 0 && part[1] > 0); /* sides of the orbits, dorsum */
     assert_true(lower > count[FACE_UPPER_LIP] + count[FACE_LOWER_LIP] + count[FACE_CHIN] && stable > 0);
     face_map_free(&m);
     surface_free(&s);

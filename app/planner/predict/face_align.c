@@ -75,10 +75,7 @@ bool face_compare_align(compare_align how, face_compare *c, surface *actual, err
     surface_fit fit;
     c->on = how != ALIGN_USUAL ? how : bones ? ALIGN_BONE : ALIGN_SKIN;
     if (c->on == ALIGN_BONE && !bones)
-        return err_set(
-            e, ERR_USAGE,
-            "the faces cannot be aligned on bone: it needs an outcome as prediction, and as actual face another "
-            "one or a mesh with its skull");
+        return err_set(e, ERR_GEOMETRY, "the faces cannot be aligned on bone: an outcome holds no cranium");
     if (c->on == ALIGN_BONE) {
         if (!fit_crania(c, &fit, e)) return false;
         c->aligned = alignment_of(c, &fit);

@@ -151,6 +151,11 @@ bool face_compare_make(const face_compare_input *in, face_compare *out, err *e)
     if (outcome && in->landmarks)
         return err_set(e, ERR_USAGE, "%s is an outcome and has its own landmarks: leave --landmarks out",
                        in->predicted);
+    if (in->align == ALIGN_BONE && !(outcome && (is_outcome(in->actual) || in->actual_skull)))
+        return err_set(
+            e, ERR_USAGE,
+            "the faces cannot be aligned on bone: it needs an outcome as prediction, and as actual face another "
+            "one or a mesh with its skull (--actual-skull)");
     bool ok = (outcome ? load_outcome(in->predicted, &c, e) : load_mesh(in, &c, e)) &&
               load_actual(in, &c, &actual, e) && measure(&c, &actual, in->align, e);
     surface_free(&actual);
