@@ -54,6 +54,10 @@ run_calculix() { # cells
     mkdir -p "$work/calculix_$1"
     "$build/tests/bench/bench_calculix" "$work/calculix_$1" "$1" >"$work/calculix_$1.part" && mv "$work/calculix_$1.part" "$work/calculix_$1.csv"
 }
+run_seeds() {
+    sh "$here/nightly/seeds.sh" 200 "$work/seeds.csv" >"$work/seeds.part" || [ -s "$work/seeds.part" ] || return 1
+    mv "$work/seeds.part" "$work/seeds.txt"
+}
 run_study() { # case folder, study folder
     plan=$1/plan.json
     [ -f "$plan" ] || plan=$here/cli/plans/mandible_advance.json
@@ -64,6 +68,7 @@ run_ratios() { "$gnathos" study "$1" --ratios -o "$2" --progress=plain >/dev/nul
 [ -f "$work/stress/stress.md" ] || note_time stress run_stress
 if [ -f "$build/CMakeCache.txt" ]; then
     [ -f "$work/physics.log" ] || run_physics
+    [ -f "$work/seeds.txt" ] || run_seeds
     if command -v ccx >/dev/null; then
         cmake --build "$build" --target bench_calculix >/dev/null
         for cells in $sizes; do
@@ -198,6 +203,21 @@ END
         echo
         echo "\`gnathos study --ratios\`.$(took "$name.ratios")"
     done
+    if [ -f "$work/seeds.txt" ]; then
+        cat <<'END'
+
+## Synthetic heads of many seeds
+
+`sh tests/nightly/seeds.sh`: teeth and mandible as `gnathos new` makes them, and the sagittal split. *Laid anew*: splits that came
+out of the lateral plate and were moved inwards. *Distal pierced*: handles that the split made there. *Bite fits*: overjet and
+overbite within two standard deviations of the class, a contact behind the canine on either side, no tooth 0.1 mm in another.
+*Cant*: of the line through the first molars; at most 0.5 degrees.
+
+END
+        echo '```'
+        cat "$work/seeds.txt"
+        echo '```'
+    fi
     cat <<END
 
 ## Stiff and extreme cases
