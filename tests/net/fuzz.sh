@@ -1,15 +1,14 @@
 #!/bin/sh
 # fuzz.sh FUZZ_READERS CORPUS SECONDS RUNS [READER...]: libFuzzer on each reader, at most SECONDS and RUNS inputs each,
 # beginning with CORPUS/READER. Prints a line per reader: inputs tried, covered edges, end. The inputs that end a reader
-# are kept in the folder `crashes` of the current folder. Unless it is named, PLY is fuzzed behind a right header alone
-# (ply_body): CGAL 5.5 runs past its own arrays where a header is wrong. Nor is OFF, unless named: CGAL asks for as much
-# memory as a face promises, which the program refuses (std::bad_alloc) but the address sanitizer does not let it. What
-# outside libraries leak is not ours.
+# are kept in the folder `crashes` of the current folder. OFF is left out unless named: CGAL asks for as much memory as a
+# face promises, which the program refuses (std::bad_alloc) but the address sanitizer does not let it. What outside
+# libraries leak is not ours.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 fuzz=$1 corpus=$2 seconds=$3 runs=$4
 shift 4
-[ $# -gt 0 ] || set -- $(ls "$corpus" | grep -vxE 'ply|off')
+[ $# -gt 0 ] || set -- $(ls "$corpus" | grep -vx off)
 mkdir -p crashes
 work=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
