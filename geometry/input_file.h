@@ -16,6 +16,8 @@ FILE *input_file_open(const char *path, int64_t most_bytes, int64_t *size, err *
 /* The same for text, at most INPUT_TEXT_BYTES; a byte order mark of UTF-8, as some editors write it, is skipped.
  * Refuses UTF-16 too. */
 FILE *input_file_open_text(const char *path, err *e);
+/* All bytes of such a file, followed by a byte 0; the caller frees *bytes. */
+bool input_file_load(const char *path, int64_t most_bytes, char **bytes, size_t *size, err *e) MUST_CHECK;
 /* Whether a text begins with a byte order mark: refuses UTF-16 (ERR_INPUT, with path); *utf8 is set where three bytes
  * are to be skipped. */
 bool input_text_mark(const char *text, size_t size, const char *path, bool *utf8, err *e) MUST_CHECK;

@@ -25,10 +25,11 @@ const landmark *landmarks_find(const landmarks *l, const char *label);
 /* Appends or replaces. The label has 1 to 31 bytes. */
 void landmarks_set(landmarks *l, const char *label, const double xyz[3]);
 
-/* 3D Slicer Markups JSON (.mrk.json, Fiducial lists, LPS or RAS, mm) and legacy .fcsv (read only; must name
- * its coordinate system). Points whose positionStatus is not "defined" are skipped and counted in *skipped
- * (may be NULL). Refuses (ERR_INPUT, with file and line) duplicate, empty or longer than 31-byte labels,
- * non-finite or missing positions, units other than mm, a file without any defined point. */
+/* 3D Slicer Markups JSON (.mrk.json, Fiducial lists and curves, LPS or RAS, mm) and legacy .fcsv (read only; must name
+ * its coordinate system). Names of automatic tools become ours (landmark_names.h). Points whose positionStatus is not
+ * "defined" are skipped and counted in *skipped (may be NULL). Refuses (ERR_INPUT, with file and line) duplicate, empty
+ * or longer than 31-byte labels, non-finite or missing positions, units other than mm, a file without any defined
+ * point. */
 bool landmarks_read(const char *path, landmarks *out, int32_t *skipped, err *e) MUST_CHECK;
 bool landmarks_write(const landmarks *l, const char *path, err *e) MUST_CHECK;
 

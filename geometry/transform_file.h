@@ -1,4 +1,4 @@
-/* transform_file: rigid moves as ITK text transforms (.tfm), as 3D Slicer reads and writes them.
+/* transform_file: rigid moves as transforms of ITK (.tfm, .h5, .mat), as 3D Slicer and ANTs read and write them.
  *
  * The file stores the resampling direction: a node that moves bone by A is stored as the inverse of A. Both
  * functions here speak of A, the motion of the bone, in LPS mm. */
@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 /* Reads AffineTransform, MatrixOffsetTransformBase, Euler3DTransform, VersorRigid3DTransform (double or
- * float) from .tfm or .txt. Refuses (ERR_INPUT, with line) other types, more than one transform, a non-rigid
- * matrix, .h5. */
+ * float) from .tfm or .txt (text), .h5 or .hdf5 (HDF5) and .mat (MATLAB 4). Refuses (ERR_INPUT, with line) other types,
+ * more than one transform, a non-rigid matrix. */
 bool transform_read(const char *path, rigid *out, err *e) MUST_CHECK;
 bool transform_write(const rigid *motion, const char *path, err *e) MUST_CHECK;
 

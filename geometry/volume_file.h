@@ -1,5 +1,5 @@
-/* volume_file: label maps and CT on a regular grid, from NRRD (.nrrd, .seg.nrrd; teem) and NIfTI (.nii,
- * .nii.gz). */
+/* volume_file: label maps and CT on a regular grid, from NRRD (.nrrd, .seg.nrrd; teem), NIfTI (.nii,
+ * .nii.gz) and MetaImage (.mha, .mhd with its file of voxels beside it). */
 #pragma once
 #include "geometry/err.h"
 #include <stdint.h>

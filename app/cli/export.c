@@ -123,13 +123,13 @@ static bool write_meshes(const shape *s, const char *format, const place *to, er
     char path[PATH_SIZE], name[64];
     snprintf(name, sizeof name, "%.39s%s.%s", s->name, s->planned ? "_before" : "", format);
     take_name(to, name, path);
-    if (!mesh_write_surface(s->rest, path, e)) return false;
+    if (!mesh_write_surface_float(s->rest, path, e)) return false;
     if (!s->planned) return true;
     surface after = *s->rest;
     after.xyz = s->planned;
     snprintf(name, sizeof name, "%.39s_after.%s", s->name, format);
     take_name(to, name, path);
-    return mesh_write_surface(&after, path, e);
+    return mesh_write_surface_float(&after, path, e);
 }
 
 static bool write_all(const outcome_shapes *o, const char *format, const place *to, err *e)

@@ -3,7 +3,8 @@
 #include "app/cli/records.h"
 #include "app/cli/verb.h"
 #include "app/planner/patient/landmark_needs.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/landmark_names.h"
+#include "geometry/suggest.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -66,6 +67,9 @@ static void print_landmarks(void)
         if (r->lost) printf("; lost: %s", r->lost);
         printf("\n");
     }
+    printf("\nNames of ALI-CBCT (Slicer Automated Dental Tools) that are taken for these; of two, their middle:\n\n");
+    for (int i = 0; i < landmark_alias_count; i++)
+        printf("  %-8s %s\n", landmark_aliases[i].label, landmark_aliases[i].names);
 }
 
 static bool explain_verb(const verb_row *v, run_context *r, err *e)

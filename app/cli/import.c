@@ -18,6 +18,7 @@ enum {
     KEY_LABELS,
     KEY_PRESET,
     KEY_CT,
+    KEY_DICOM,
     KEY_HU,
     KEY_SEAL,
     KEY_EDGE,
@@ -28,8 +29,8 @@ enum {
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0,
-     "What the case is made of (given twice: of both): mesh files (.ply .stl .obj .off .gltf .glb, FILE.glb#NODE), or "
-     "labels of --labels",
+     "What the case is made of (given twice: of both): mesh files (.ply .stl .obj .off .gltf .glb .vtk .vtp, "
+     "FILE.glb#NODE), or labels of --labels",
      1},
     {"skin", KEY_SKIN, "FROM", 0, "Skin of the head; may be open at neck, mouth, eyes and nostrils", 1},
     {"skull", KEY_SKULL, "FROM", 0, "Skull with the maxilla", 1},
@@ -42,7 +43,7 @@ static const struct argp_option options[] = {
     {"unit", KEY_UNIT, "UNIT", 0, "mm, cm or m: length unit of the mesh files", 2},
     {NULL, 0, NULL, 0, "From images:", 3},
     {"labels", KEY_LABELS, "FILE", 0,
-     "Label map (.nrrd .seg.nrrd .nii .nii.gz); labels are chosen by name, or by number where the file names "
+     "Label map (.nrrd .seg.nrrd .nii .nii.gz .mha .mhd); labels are chosen by name, or by number where the file names "
      "none; "
      "several are separated by commas. Given several times: files of one grid, each of them one "
      "structure that bears its file's name",
@@ -50,6 +51,10 @@ static const struct argp_option options[] = {
     {"preset", KEY_PRESET, "NAME", 0,
      "dental-segmentator, totalsegmentator-craniofacial or toothfairy: the labels of that tool", 3},
     {"ct", KEY_CT, "FILE", 0, "Take the skin from this CT", 3},
+    {"dicom", KEY_DICOM, "DIR", 0,
+     "The same from the DICOM slices in this folder, read by dcm2niix, which must be installed; a tilted gantry and "
+     "uneven slices are refused",
+     3},
     {"nifti-form", KEY_FORM, "FORM", 0, "sform or qform: which holds where a NIfTI file places itself twice", 3},
     {"skin-hu", KEY_HU, "HU", 0, "Grey value of the skin's surface in the CT (-300)", 3},
     {"seal", KEY_SEAL, "MM", 0,
@@ -91,7 +96,12 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_NAME: p->name = arg; return 0;
     case KEY_LABELS: add(&p->labels, arg, state); return 0;
     case KEY_PRESET: p->preset = arg; return 0;
-    case KEY_CT: p->ct = arg; return 0;
+    case KEY_CT:
+    case KEY_DICOM:
+        if (p->ct) argp_error(state, "--ct and --dicom both name the CT; which is meant?");
+        p->ct = arg;
+        p->ct_is_dicom = key == KEY_DICOM;
+        return 0;
     case KEY_HU:
         p->skin_hu = number(arg, -1000, 30000, "skin-hu", state);
         p->skin_hu_given = true;

@@ -1,6 +1,6 @@
 /* gnathos VERB ...: finds the verb and runs it. */
 #include "app/cli/verb.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* gnathos new CASE: a case of a synthetic head, from published norms. */
 #include "app/cli/new_record.h"
 #include "app/cli/verb.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include "cases/norm_head/norm_case.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"

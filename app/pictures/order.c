@@ -1,5 +1,5 @@
 #include "app/pictures/order.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>

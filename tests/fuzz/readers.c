@@ -204,11 +204,11 @@ static bool read_journal(const char *path)
     journal_close(&j);
     return true;
 }
+#endif
 
 static const char ply_header[] =
     "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
     "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
-#endif
 
 const reader readers[] = {
     {"case", "case.json", read_case, NULL},
@@ -217,17 +217,22 @@ const reader readers[] = {
     {"fcsv", "points.fcsv", read_landmarks, NULL},
     {"planes", "planes.mrk.json", read_planes, NULL},
     {"tfm", "move.tfm", read_transform, NULL},
+    {"mat", "move.mat", read_transform, NULL},
+    {"h5", "move.h5", read_transform, NULL},
+    {"ply", "mesh.ply", read_surface, NULL},
+    {"ply_body", "body.ply", read_surface, ply_header},
+    {"off", "mesh.off", read_surface, NULL},
+    {"vtk", "mesh.vtk", read_surface, NULL},
+    {"vtp", "mesh.vtp", read_surface, NULL},
     {"stl", "mesh.stl", read_surface, NULL},
     {"obj", "mesh.obj", read_surface, NULL},
     {"gltf", "mesh.gltf", read_surface, NULL},
     {"glb", "mesh.glb", read_surface, NULL},
     {"nrrd", "volume.nrrd", read_volume, NULL},
     {"nifti", "volume.nii", read_volume, NULL},
+    {"mha", "volume.mha", read_volume, NULL},
     {"outcome", "outcome.json", read_outcome, NULL},
 #if GNATHOS_WITH_CGAL
-    {"ply", "mesh.ply", read_surface, NULL},
-    {"ply_body", "body.ply", read_surface, ply_header},
-    {"off", "mesh.off", read_surface, NULL},
     {"pack", "prepared.pack", read_pack, NULL},
     {"journal", "run.journal", read_journal, NULL},
 #endif

@@ -1,14 +1,14 @@
 #!/bin/sh
 # fuzz.sh FUZZ_READERS CORPUS SECONDS RUNS [READER...]: libFuzzer on each reader, at most SECONDS and RUNS inputs each,
 # beginning with CORPUS/READER. Prints a line per reader: inputs tried, covered edges, end. The inputs that end a reader
-# are kept in the folder `crashes` of the current folder. OFF is left out unless named: CGAL asks for as much memory as a
-# face promises, which the program refuses (std::bad_alloc) but the address sanitizer does not let it. What outside
-# libraries leak is not ours.
+# are kept in the folder `crashes` of the current folder, the inputs that reach something new in FUZZ_KEEP/READER where
+# that is set. FUZZ_SEED begins the dice (1), FUZZ_TIMEOUT is the most seconds for one input (10). What outside libraries
+# leak is not ours.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 fuzz=$1 corpus=$2 seconds=$3 runs=$4
 shift 4
-[ $# -gt 0 ] || set -- $(ls "$corpus" | grep -vx off)
+[ $# -gt 0 ] || set -- $(ls "$corpus")
 mkdir -p crashes
 work=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -18,10 +18,12 @@ export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 failed=0
 printf '%-10s %10s %8s  %s\n' reader inputs edges end
 for reader; do
-    mkdir "$work/new"
-    "$fuzz" --reader="$reader" -max_total_time="$seconds" -runs="$runs" -seed=1 -max_len=4096 -timeout=10 \
+    new=${FUZZ_KEEP:-$work/new}/$reader length=4096
+    [ "$reader" != h5 ] || length=16384 # ITK writes no smaller ones
+    mkdir -p "$new"
+    "$fuzz" --reader="$reader" -max_total_time="$seconds" -runs="$runs" -seed="${FUZZ_SEED:-1}" -max_len="$length" -timeout="${FUZZ_TIMEOUT:-10}" \
         -rss_limit_mb=2048 -print_final_stats=1 -verbosity=1 -artifact_prefix="crashes/$reader-" \
-        "$work/new" "$corpus/$reader" >"$work/log" 2>&1
+        "$new" "$corpus/$reader" >"$work/log" 2>&1
     status=$?
     end=held
     [ $status -eq 0 ] || { end="status $status"; failed=1; }

@@ -1,6 +1,7 @@
 #!/bin/sh
 # run_export.sh GNATHOS NODE MODULES OUT: what is exported of the outcome OUT, and what the outcome itself holds, loads in
-# VTK with the right frame, units and arrays; the .glb passes the Khronos validator (in MODULES).
+# VTK with the right frame, units and arrays; the .glb passes the Khronos validator, the .ply becomes what three.js can draw
+# (both in MODULES), meshio reads the tissue.
 set -eu
 gnathos=$1 node=$2 modules=$3 out=$4
 work=$(mktemp -d)
@@ -13,8 +14,14 @@ require("gltf-validator").validateBytes(new Uint8Array(require("fs").readFileSyn
     console.log(`validator: ${numErrors} errors, ${numWarnings} warnings`);
     if (numErrors || numWarnings || !r.info.hasMorphTargets) { console.log(messages.slice(0, 9)); process.exit(1); }
 });' "$work/glb/head.glb"
+"$node" --input-type=module -e '
+const { PLYLoader } = await import(process.argv[1]), file = (await import("node:fs")).readFileSync(process.argv[2]);
+const at = new PLYLoader().parse(file.buffer.slice(file.byteOffset, file.byteOffset + file.length)).getAttribute("position");
+console.log(`three.js: ${at.count} vertices as ${at.array.constructor.name}`);
+if (!(at.array instanceof Float32Array) || !at.array.every(Number.isFinite)) process.exit(1);
+' "$modules/three/examples/jsm/loaders/PLYLoader.js" "$work/ply/skin_after.ply"
 /usr/bin/python3 - "$out" "$work" <<'PY'
-import json, os, sys, vtk
+import json, meshio, os, sys, vtk
 out, work = sys.argv[1:]
 moves = {m["segment"] for m in json.load(open(out + "/outcome.json"))["movements"]}
 assert moves, "this plan moves nothing"
@@ -31,6 +38,9 @@ def near(a, b, tolerance, what):
 
 def tagged(path):
     with open(path, "rb") as f: return b"SPACE=LPS" in f.read(400)
+
+cloud = meshio.read(out + "/tissue.vtu")
+assert len(cloud.cells_dict["tetra"]) > 1000 and cloud.point_data["displacement"].shape == cloud.points.shape
 
 readers = {"ply": vtk.vtkPLYReader, "stl": vtk.vtkSTLReader, "obj": vtk.vtkOBJReader}
 rest = {f: read(readers[f](), "%s/%s/skin_before.%s" % (work, f, f)) for f in readers}
@@ -80,7 +90,7 @@ whole.GetBounds(b)
 near(got, [1e-3 * x for x in (b[0], b[1], b[4], b[5], -b[3], -b[2])], 1e-6, "glb")
 
 tissue = read(vtk.vtkXMLUnstructuredGridReader(), out + "/tissue.vtu")
-assert space(tissue) == "LPS" and tissue.GetCellType(0) == vtk.VTK_TETRA
+assert tissue.GetCellType(0) == vtk.VTK_TETRA
 assert tissue.GetPointData().GetVectors().GetName() == "displacement"
 assert {"displacement", "attachment", "segment"} <= {tissue.GetPointData().GetArrayName(i) for i in range(tissue.GetPointData().GetNumberOfArrays())}
 for s in moves: assert open("%s/%s.tfm" % (out, s)).readline() == "#Insight Transform File V1.0\n"

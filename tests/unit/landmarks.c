@@ -144,12 +144,40 @@ static void wrong_files_are_refused_with_file_and_line(void **state)
     assert_refused(landmarks_write(&l, "a.fcsv", &e), ERR_USAGE);
 }
 
+static void names_of_an_automatic_tool_become_ours(void **state)
+{
+    (void)state;
+    err e = {0};
+    landmarks l = {0}, back;
+    const double right[3] = {-4, -80, 2}, left[3] = {4, -82, 3}, porion[3] = {-55, 10, 20}, ours[3] = {50, 60, 70};
+    landmarks_set(&l, "UR1O", right);
+    landmarks_set(&l, "UL1O", left);
+    landmarks_set(&l, "RPo", porion);
+    landmarks_set(&l, "LR1O", right); /* one of two is not the middle */
+    landmarks_set(&l, "Go_L", ours);  /* ours stays where both are there */
+    landmarks_set(&l, "LGo", left);
+    assert_ok(landmarks_write(&l, "ali.mrk.json", &e));
+    landmarks_free(&l);
+    assert_ok(landmarks_read("ali.mrk.json", &back, NULL, &e));
+    assert_int_equal(back.count, 5);
+    for (int c = 0; c < 3; c++) {
+        assert_near(landmarks_find(&back, "U1")->xyz[c], (right[c] + left[c]) / 2, 0);
+        assert_near(landmarks_find(&back, "Po_R")->xyz[c], porion[c], 0);
+        assert_near(landmarks_find(&back, "Go_L")->xyz[c], ours[c], 0);
+    }
+    assert_null(landmarks_find(&back, "UR1O"));
+    assert_null(landmarks_find(&back, "L1"));
+    assert_non_null(landmarks_find(&back, "LR1O"));
+    landmarks_free(&back);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(markups_round_trip_keeps_every_bit_and_the_order),
         cmocka_unit_test(ras_reads_as_lps_and_undefined_points_are_skipped),
         cmocka_unit_test(fcsv_is_read_with_quotes_columns_and_sides),
+        cmocka_unit_test(names_of_an_automatic_tool_become_ours),
         cmocka_unit_test(wrong_files_are_refused_with_file_and_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

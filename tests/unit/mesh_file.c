@@ -50,6 +50,19 @@ static void ply_round_trip_keeps_every_bit(void **state)
     surface_free(&s);
 }
 
+static void a_ply_for_viewers_holds_floats(void **state)
+{
+    (void)state;
+    err e = {0};
+    surface s = cube(), back = {0};
+    assert_ok(mesh_write_surface_float(&s, "floats.ply", &e));
+    assert_ok(mesh_read_surface("floats.ply", MESH_SPACE_FROM_FILE, &back, NULL, &e));
+    for (int i = 0; i < 24; i++) assert_near(back.xyz[i], (double)(float)s.xyz[i], 0);
+    assert_memory_equal(back.tri, s.tri, 36 * sizeof *s.tri);
+    surface_free(&back);
+    surface_free(&s);
+}
+
 static void ply_whose_data_start_with_a_newline_byte_is_read_right(void **state)
 {
     (void)state;
@@ -190,10 +203,10 @@ static void broken_files_are_refused_by_name(void **state)
     static const struct {
         const char *path, *text, *says;
     } bad[] = {
-        {"mesh.vtk", "x", "mesh.vtk: unknown kind of mesh file"},
+        {"mesh.xyz", "x", "mesh.xyz: unknown kind of mesh file"},
         {"noextension", "x", "noextension: unknown kind"},
         {"empty.ply", "", "empty.ply: the file is empty"},
-        {"text.ply", "hello\n", "text.ply:1: is not a PLY file that is read: it does not begin with ply"},
+        {"text.ply", "hello\n", "text.ply:1: is not a complete PLY"},
         {"none.ply",
          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
          "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
@@ -210,7 +223,21 @@ static void broken_files_are_refused_by_name(void **state)
          "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\n"
          "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
          "huge.ply: is not a complete PLY"},
-        {"huge.off", "OFF\n99999999999999 1 0\n0 0 0\n", "huge.off: is not a complete OFF"},
+        {"huge.off", "OFF\n99999999999999 1 0\n0 0 0\n", "huge.off:4: is not a complete OFF"},
+        {"corners.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n900000000000 0 1 2\n",
+         "corners.off:7: is not a complete OFF file: face 0 of 1 is missing"},
+        {"list.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list uint int vertex_indices\nend_header\n0 0 0\n4000000000 0 0 0\n",
+         "list.ply:12: is not a complete PLY file: face 0 of 1 is missing"},
+        {"list_of_floats.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty list float int x\nend_header\n1 0\n",
+         "list_of_floats.ply:4: is not a complete PLY file: a list cannot be counted by \"float\""},
+        {"no_z.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+         "no_z.ply:7: is not a complete PLY file: x, y or z is missing in \"vertex\""},
+        {"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n0\n",
+         "type.ply:4: is not a complete PLY file: unknown type \"half\""},
+        {"before.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n",
+         "before.ply:3: is not a complete PLY file: no element before the property \"float\""},
         {"tag.ply", "ply\nformat ascii 1.0\ncomment SPACE=LAS\nelement vertex 3\nend_header\n",
          "tag.ply:3: unknown tag SPACE=LAS"},
         {"empty.stl", "", "empty.stl: the file is empty"},
@@ -418,6 +445,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ply_round_trip_keeps_every_bit),
+        cmocka_unit_test(a_ply_for_viewers_holds_floats),
         cmocka_unit_test(ply_whose_data_start_with_a_newline_byte_is_read_right),
         cmocka_unit_test(stl_cube_welds_to_eight_vertices),
         cmocka_unit_test(text_stl_is_read_with_its_tag),

@@ -1,5 +1,5 @@
 #include "tests/check.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 
 static const char *const names[] = {"check", "prepare", "predict", "maxilla_advance_mm", "maxilla_impaction_mm"};
 enum { COUNT = sizeof names / sizeof names[0] };

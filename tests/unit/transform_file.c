@@ -125,8 +125,8 @@ static void wrong_transforms_are_refused_with_file_and_line(void **state)
     static const struct {
         const char *path, *text, *says;
     } bad[] = {
-        {"a.h5", "x", "a.h5: HDF5 transforms are not read; save it as Text (.tfm)"},
-        {"a.mat", "x", "a.mat: unknown kind"},
+        {"a.h5", "x", "a.h5: is not an HDF5 file"},
+        {"a.mat", "x", "a.mat: is not a transform of ITK: a matrix is not whole"},
         {"empty.tfm", "", "empty.tfm: the file is empty"},
         {"none.tfm", HEAD, "none.tfm: holds no transform"},
         {"head.tfm", "hello\n", "head.tfm:1: "},
@@ -136,7 +136,7 @@ static void wrong_transforms_are_refused_with_file_and_line(void **state)
          "scale.tfm:4: Parameters: the matrix is not rigid"},
         {"mirror.tfm", HEAD AFFINE "Parameters: -1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n", "mirror.tfm:4: "},
         {"few.tfm", HEAD AFFINE "Parameters: 1 0 0\nFixedParameters: 0 0 0\n", "few.tfm:4: "},
-        {"cut.tfm", HEAD AFFINE "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\n", "cut.tfm:3: "},
+        {"cut.tfm", HEAD AFFINE "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\n", "cut.tfm: FixedParameters: missing"},
         {"word.tfm", HEAD AFFINE "Parameters: 1 0 zero\n", "word.tfm:4: "},
         {"nan.tfm", HEAD AFFINE "Parameters: 1 0 nan\n", "nan.tfm:4: "},
         {"two.tfm", HEAD AFFINE "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n#Transform 1\n" AFFINE,

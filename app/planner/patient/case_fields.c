@@ -38,7 +38,8 @@ static const field rows[] = {
      .words = "LPS RAS",
      .help = "Axes of meshes that carry no SPACE tag: LPS is +x left, +y posterior, +z up; RAS meshes are "
              "turned."},
-    SURFACE("skin", CASE_SKIN, true, "Skin of the head (.ply .stl .obj .off .gltf .glb); may be open at the neck."),
+    SURFACE("skin", CASE_SKIN, true,
+            "Skin of the head (.ply .stl .obj .off .gltf .glb .vtk .vtp); may be open at the neck."),
     SURFACE("skull", CASE_SKULL, true, "Skull with the maxilla, without the mandible."),
     SURFACE("mandible", CASE_MANDIBLE, true, "Mandible."),
     SURFACE("upper_teeth", CASE_UPPER_TEETH, false, "Upper teeth where they are not part of the skull."),

@@ -1,5 +1,5 @@
 #include "app/planner/patient/case_file.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>

@@ -18,6 +18,7 @@ typedef struct import_params {
     import_words labels;       /* a label map, or several of one grid (label_files.h) */
     const char *preset;        /* NULL, or one of label_preset_names */
     const char *ct;            /* the skin is the head in this CT, or NULL */
+    bool ct_is_dicom;          /* ct is a folder of DICOM slices */
     double skin_hu;            /* above: not air */
     bool skin_hu_given;        /* by the user, who then knows the scale of the values */
     double seal_mm;            /* openings of the skin narrower than this are sealed, with the airways behind them */

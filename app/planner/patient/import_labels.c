@@ -2,6 +2,7 @@
 #include "app/planner/patient/import.h"
 #include "app/planner/patient/label_choice.h"
 #include "app/planner/patient/label_files.h"
+#include "geometry/dicom_file.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include <stdio.h>
@@ -186,7 +187,7 @@ static bool skin_of_ct(const import_params *p, const task *watch, import_result 
     import_part *part = &out->part[CASE_SKIN];
     if (part->mesh.vertex_count) return err_set(e, ERR_USAGE, "--skin and --ct both give the skin; leave one out");
     task_progress(watch, "ct", -1);
-    if (!volume_read_by(p->ct, p->form, &v, e)) return false;
+    if (!(p->ct_is_dicom ? dicom_read(p->ct, &v, e) : volume_read_by(p->ct, p->form, &v, e))) return false;
     if (!check_grey_values(p, &v, e)) {
         volume_free(&v);
         return false;

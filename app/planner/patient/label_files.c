@@ -33,7 +33,7 @@ static bool check_same_grid(const volume *a, const char *first, const volume *b,
 /* "mandible" of "seg/mandible.nii.gz". */
 static void base_name(const char *path, char *name, size_t size)
 {
-    static const char *const endings[] = {".nii.gz", ".seg.nrrd", ".nrrd", ".nii"};
+    static const char *const endings[] = {".nii.gz", ".seg.nrrd", ".nrrd", ".nii", ".mha", ".mhd"};
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
     size_t n = strlen(base);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {

@@ -1,5 +1,5 @@
 #include "app/planner/plan/controls.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include <stdio.h>
 #include <string.h>
 

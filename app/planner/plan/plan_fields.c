@@ -1,6 +1,6 @@
 /* The fields of a plan, one line each. */
 #include "app/planner/plan/plan_file.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include <math.h>
 #include <pthread.h>
 

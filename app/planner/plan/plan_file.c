@@ -1,5 +1,5 @@
 #include "app/planner/plan/plan_file.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include "geometry/transform_file.h"
 #include <string.h>
 

@@ -1,5 +1,5 @@
 #include "app/planner/store/fields.h"
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include "geometry/mem.h"
 #include <errno.h>
 #include <math.h>

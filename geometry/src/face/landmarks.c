@@ -1,4 +1,5 @@
 #include "geometry/landmarks.h"
+#include "geometry/landmark_names.h"
 #include "geometry/mem.h"
 #include "geometry/src/files/fcsv.h"
 #include "geometry/src/files/file_name.h"
@@ -117,12 +118,13 @@ bool landmarks_read(const char *path, landmarks *out, int32_t *skipped, err *e)
     } else if (file_name_ends(path, ".json")) {
         if (!read_markups(path, &l, &missing, e)) return false;
     } else {
-        return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of landmark file; read are .mrk.json and .fcsv");
+        return file_name_refuse(path, "landmark", ".mrk.json .json .fcsv", "", e);
     }
     if (!l.count) {
         landmarks_free(&l);
         return err_at(e, ERR_INPUT, path, 0, NULL, "holds no landmark with a defined position (%d skipped)", missing);
     }
+    landmark_names_resolve(&l);
     *out = l;
     if (skipped) *skipped = missing;
     return true;

@@ -1,5 +1,6 @@
 /* file_name: what the end of a file's name says. Private. */
 #pragma once
+#include "geometry/err.h"
 #include <stdbool.h>
 #include <string.h>
 #include <strings.h>
@@ -17,3 +18,7 @@ static inline const char *file_name_base(const char *path)
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
 }
+
+/* Refuses a file whose ending is none of `kinds` (".ply .stl"), with the nearest of them; `hint` ends the message.
+ * Always false. */
+bool file_name_refuse(const char *path, const char *what, const char *kinds, const char *hint, err *e);

@@ -1,6 +1,8 @@
 #include "geometry/input_file.h"
+#include "geometry/mem.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -79,6 +81,23 @@ FILE *input_file_open_text(const char *path, err *e)
     if (ok) return in;
     fclose(in);
     return NULL;
+}
+
+bool input_file_load(const char *path, int64_t most_bytes, char **bytes, size_t *size, err *e)
+{
+    int64_t want = 0;
+    FILE *in = input_file_open(path, most_bytes, &want, e);
+    if (!in) return false;
+    char *got = NEW_ARRAY(char, want + 1);
+    bool whole = fread(got, 1, (size_t)want, in) == (size_t)want;
+    fclose(in);
+    if (!whole) {
+        free(got);
+        return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read to its end");
+    }
+    *bytes = got;
+    *size = (size_t)want;
+    return true;
 }
 
 bool input_file_check(const char *path, int64_t most_bytes, err *e)

@@ -40,15 +40,10 @@ bool json_file_parse(const char *text, size_t size, const char *path, json_file 
 
 bool json_file_read(const char *path, json_file *out, err *e)
 {
-    int64_t bytes = 0;
-    FILE *in = input_file_open(path, INPUT_TEXT_BYTES, &bytes, e);
-    if (!in) return false;
-    size_t want = (size_t)bytes;
-    char *text = mem_alloc(want + 1, 1);
-    size_t got = fread(text, 1, want, in);
-    fclose(in);
-    bool ok = got == want ? json_file_parse(text, got, path, out, e)
-                          : err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read to its end");
+    char *text;
+    size_t size;
+    if (!input_file_load(path, INPUT_TEXT_BYTES, &text, &size, e)) return false;
+    bool ok = json_file_parse(text, size, path, out, e);
     free(text);
     return ok;
 }

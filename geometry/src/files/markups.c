@@ -44,7 +44,8 @@ bool markups_check(const json_file *f, size_t index, const char *type, bool *ras
     const char *is = json_string_value(json_object_get(m, "type"));
     char pointer[64];
     snprintf(pointer, sizeof pointer, "/markups/%zu/type", index);
-    if (!is || strcmp(is, type))
+    bool curve = is && !strcmp(type, "Fiducial") && (!strcmp(is, "Curve") || !strcmp(is, "ClosedCurve"));
+    if (!curve && (!is || strcmp(is, type)))
         return json_file_refuse(f, pointer, e, "must be \"%s\", is \"%s\"", type, is ? is : "");
     if (json_is_array(units)) units = json_array_get(units, 0); /* ["mm", "UCUM", "millimeter"] */
     snprintf(pointer, sizeof pointer, "/markups/%zu/coordinateUnits", index);

@@ -6,7 +6,8 @@
 
 /* Reads the file; *list is its markups array, not empty, every item an object. Refuses other JSON. */
 bool markups_open(const char *path, json_file *out, const json_t **list, err *e) MUST_CHECK;
-/* Refuses a type other than `type`, units other than mm, an unknown coordinate system. */
+/* Refuses a type other than `type` (points of curves are Fiducials too), units other than mm, an unknown coordinate
+ * system. */
 bool markups_check(const json_file *f, size_t index, const char *type, bool *ras, err *e) MUST_CHECK;
 /* Control point `k` of markup `index`: *defined false (nothing else set) if its position was not placed.
  * *label is borrowed and may be "". xyz in LPS. */

@@ -4,7 +4,6 @@
 #include "geometry/src/files/file_name.h"
 #include "geometry/src/files/gltf_check.h"
 #include "geometry/src/files/join_corners.h"
-#include "geometry/src/files/ply_check.h"
 #include "geometry/src/files/read_mesh.h"
 #include <ctype.h>
 #include <math.h>
@@ -12,25 +11,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum mesh_format { FORMAT_PLY, FORMAT_OFF, FORMAT_STL, FORMAT_OBJ, FORMAT_GLTF } mesh_format;
+typedef enum mesh_format {
+    FORMAT_PLY,
+    FORMAT_OFF,
+    FORMAT_STL,
+    FORMAT_OBJ,
+    FORMAT_GLTF,
+    FORMAT_VTK,
+    FORMAT_VTP
+} mesh_format;
 
 static bool find_format(const char *path, mesh_format *format, err *e)
 {
     static const struct {
         const char *ending;
         mesh_format format;
-    } known[] = {{".ply", FORMAT_PLY}, {".off", FORMAT_OFF},   {".stl", FORMAT_STL},
-                 {".obj", FORMAT_OBJ}, {".gltf", FORMAT_GLTF}, {".glb", FORMAT_GLTF}};
+    } known[] = {{".ply", FORMAT_PLY},   {".off", FORMAT_OFF},  {".stl", FORMAT_STL}, {".obj", FORMAT_OBJ},
+                 {".gltf", FORMAT_GLTF}, {".glb", FORMAT_GLTF}, {".vtk", FORMAT_VTK}, {".vtp", FORMAT_VTP}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (file_name_ends(path, known[i].ending)) {
             *format = known[i].format;
             return true;
         }
-    return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of mesh file; read are .ply .off .stl .obj .gltf .glb");
+    return file_name_refuse(path, "mesh", ".ply .off .stl .obj .gltf .glb .vtk .vtp", "", e);
+}
+
+static bool read_space(const char *space, const char *path, int line, bool *tagged, bool *ras, err *e)
+{
+    *tagged = true;
+    *ras = !strncmp(space, "RAS", 3);
+    return *ras || !strncmp(space, "LPS", 3) ||
+           err_at(e, ERR_INPUT, path, line, NULL, "unknown tag SPACE=%.6s; known are SPACE=LPS and SPACE=RAS", space);
 }
 
 /* "SPACE=LPS" as 3D Slicer writes it: in the 80 bytes or the first line of an STL, in comments of PLY and
- * OBJ. */
+ * OBJ, in the title of a legacy VTK. A VTP has it among its data. */
 static bool find_space_tag(const char *path, mesh_format format, bool *tagged, bool *ras, err *e)
 {
     FILE *in = input_file_open(path, INT64_MAX, NULL, e);
@@ -50,14 +65,10 @@ static bool find_space_tag(const char *path, mesh_format format, bool *tagged, b
         if (next) *next++ = 0;
         if (format == FORMAT_PLY && !strcmp(line, "end_header")) break;
         bool comment = format == FORMAT_STL || (format == FORMAT_PLY && !strncmp(line, "comment", 7)) ||
-                       (format == FORMAT_OBJ && *line == '#');
+                       (format == FORMAT_OBJ && *line == '#') || (format == FORMAT_VTK && number == 2);
         const char *tag = comment ? strstr(line, "SPACE=") : NULL;
         if (!tag) continue;
-        *tagged = true;
-        *ras = !strncmp(tag + 6, "RAS", 3);
-        if (!*ras && strncmp(tag + 6, "LPS", 3))
-            return err_at(e, ERR_INPUT, path, format == FORMAT_STL ? 0 : number, NULL,
-                          "unknown tag %.12s; known are SPACE=LPS and SPACE=RAS", tag);
+        if (!read_space(tag + 6, path, format == FORMAT_STL ? 0 : number, tagged, ras, e)) return false;
     }
     return true;
 }
@@ -165,11 +176,18 @@ static void turn_to_lps(surface *s, bool gltf, bool ras)
     }
 }
 
-static bool read_scene(const char *path, bool gltf, const char *node, polygons *p, err *e)
+static bool read_polygons(const char *path, mesh_format format, const char *node, polygons *p, err *e)
 {
     uint8_t *keep = NULL;
     int count = 0;
-    if (gltf && !gltf_check(path, node, &keep, &count, e)) return false;
+    switch (format) {
+    case FORMAT_PLY: return read_mesh_ply(path, p, e);
+    case FORMAT_OFF: return read_mesh_off(path, p, e);
+    case FORMAT_VTK: return read_mesh_vtk(path, p, e);
+    case FORMAT_VTP: return read_mesh_vtp(path, p, e);
+    default: break;
+    }
+    if (format == FORMAT_GLTF && !gltf_check(path, node, &keep, &count, e)) return false;
     bool good = read_mesh_scene(path, keep, count, p, e);
     free(keep);
     return good;
@@ -185,18 +203,14 @@ bool mesh_read_surface(const char *file_and_node, mesh_space space, surface *out
     const char *node = gltf_split(file_and_node, path, sizeof path);
     if (strlen(file_and_node) >= sizeof path)
         return err_at(e, ERR_INPUT, file_and_node, 0, NULL, "is a path of more than %zu bytes", sizeof path - 1);
-    if (!find_format(path, &format, e) || !find_space_tag(path, format, &r.tagged, &r.ras, e)) return false;
-    if (!r.tagged) r.ras = space == MESH_SPACE_RAS;
-    if (format == FORMAT_PLY && !ply_check(path, e)) return false;
-    if (format == FORMAT_PLY || format == FORMAT_OFF) {
-#ifdef GNATHOS_CGAL
-        if (!read_mesh_polygons(path, &p, e)) return false;
-#else
-        return err_at(e, ERR_INPUT, path, 0, NULL, "this build cannot read .ply and .off (GNATHOS_CGAL=OFF)");
-#endif
-    } else if (!read_scene(path, format == FORMAT_GLTF, node, &p, e)) {
+    if (!find_format(path, &format, e) || !find_space_tag(path, format, &r.tagged, &r.ras, e) ||
+        !read_polygons(path, format, node, &p, e))
+        return false;
+    if (*p.space && !read_space(p.space, path, 0, &r.tagged, &r.ras, e)) {
+        polygons_free(&p);
         return false;
     }
+    if (!r.tagged) r.ras = space == MESH_SPACE_RAS;
     bool good = surface_from_polygons(&p, path, &s, &r, e);
     polygons_free(&p);
     if (!good) return false;

@@ -8,16 +8,22 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the binary writers st
 
 static void put(FILE *to, const void *bytes, size_t size) { (void)!fwrite(bytes, 1, size, to); }
 
-static void write_ply(const surface *s, FILE *to)
+static void write_ply(const surface *s, bool floats, FILE *to)
 {
+    const char *type = floats ? "float" : "double";
     fprintf(to,
             "ply\nformat binary_little_endian 1.0\ncomment gnathos " GNATHOS_VERSION
-            "\ncomment SPACE=LPS\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n%s"
+            "\ncomment SPACE=LPS\nelement vertex %d\nproperty %s x\nproperty %s y\nproperty %s z\n%s"
             "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
-            s->vertex_count, s->rgb ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
-            s->triangle_count);
+            s->vertex_count, type, type, type,
+            s->rgb ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "", s->triangle_count);
     for (int32_t v = 0; v < s->vertex_count; v++) {
-        put(to, s->xyz + 3 * (size_t)v, 3 * sizeof *s->xyz);
+        const double *x = s->xyz + 3 * (size_t)v;
+        const float rounded[3] = {(float)x[0], (float)x[1], (float)x[2]};
+        if (floats)
+            put(to, rounded, sizeof rounded);
+        else
+            put(to, x, 3 * sizeof *x);
         if (s->rgb) put(to, s->rgb + 3 * (size_t)v, 3);
     }
     for (int32_t t = 0; t < s->triangle_count; t++) {
@@ -62,7 +68,7 @@ static void write_obj(const surface *s, FILE *to)
     }
 }
 
-bool mesh_write_surface(const surface *s, const char *path, err *e)
+static bool write_surface(const surface *s, bool floats, const char *path, err *e)
 {
     bool ply = file_name_ends(path, ".ply"), stl = file_name_ends(path, ".stl");
     if (!ply && !stl && !file_name_ends(path, ".obj"))
@@ -70,10 +76,14 @@ bool mesh_write_surface(const surface *s, const char *path, err *e)
     whole_file w;
     if (!whole_file_open(path, &w, e)) return false;
     if (ply)
-        write_ply(s, w.stream);
+        write_ply(s, floats, w.stream);
     else if (stl)
         write_stl(s, w.stream);
     else
         write_obj(s, w.stream);
     return whole_file_close(&w, e);
 }
+
+bool mesh_write_surface(const surface *s, const char *path, err *e) { return write_surface(s, false, path, e); }
+
+bool mesh_write_surface_float(const surface *s, const char *path, err *e) { return write_surface(s, true, path, e); }

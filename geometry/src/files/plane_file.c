@@ -130,8 +130,7 @@ bool planes_read(const char *path, cut_plane **out, int *count, err *e)
 {
     json_file f;
     const json_t *list;
-    if (!file_name_ends(path, ".json"))
-        return err_at(e, ERR_INPUT, path, 0, NULL, "unknown kind of plane file; read is .mrk.json");
+    if (!file_name_ends(path, ".json")) return file_name_refuse(path, "plane", ".mrk.json", "", e);
     if (!markups_open(path, &f, &list, e)) return false;
     size_t n = json_array_size(list);
     cut_plane *planes = NEW_ARRAY(cut_plane, n);

@@ -7,15 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-void polygons_free(polygons *p)
-{
-    free(p->xyz);
-    free(p->first);
-    free(p->corner);
-    free(p->rgb);
-    *p = (polygons){0};
-}
-
 typedef struct placed { /* matrix [3][4] row-major, from a node to the scene */
     double m[12];
 } placed;
@@ -93,7 +84,7 @@ bool read_mesh_scene(const char *path, const uint8_t *keep, int keep_count, poly
         if (scene) aiReleaseImport(scene);
         return err_at(e, ERR_INPUT, path, 0, NULL, "cannot be read as a mesh: %s", aiGetErrorString());
     }
-    polygons p = {.xyz = NEW_ARRAY(double, 0), .first = NEW_ARRAY(int64_t, 1), .corner = NEW_ARRAY(int64_t, 0)};
+    polygons p = polygons_new();
     append_node(scene, scene->mRootNode, &(placed){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, &w, &p);
     aiReleaseImport(scene);
     if (keep && w.seen != keep_count) {

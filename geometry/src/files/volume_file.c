@@ -79,13 +79,16 @@ bool volume_read(const char *path, volume *out, err *e) { return volume_read_by(
 bool volume_read_by(const char *path, volume_form form, volume *out, err *e)
 {
     bool nrrd = file_name_ends(path, ".nrrd"), nifti = file_name_ends(path, ".nii") || file_name_ends(path, ".nii.gz");
+    bool meta = file_name_ends(path, ".mha") || file_name_ends(path, ".mhd");
     volume v = {0};
-    if (!nrrd && !nifti)
-        return err_at(e, ERR_INPUT, path, 0, NULL,
-                      "unknown kind of volume file; read are .nrrd, .seg.nrrd, .nii and .nii.gz (DICOM: convert with "
-                      "dcm2niix)");
+    if (!nrrd && !nifti && !meta)
+        return file_name_refuse(path, "volume", ".nrrd .seg.nrrd .nii .nii.gz .mha .mhd",
+                                " (DICOM: convert with dcm2niix)", e);
     if (!input_file_check(path, INT64_MAX, e)) return false;
-    if (!(nrrd ? read_volume_nrrd(path, &v, e) : read_volume_nifti(path, form, &v, e)) || !check_grid(&v, path, e)) {
+    bool good = nrrd   ? read_volume_nrrd(path, &v, e)
+                : meta ? read_volume_meta(path, &v, e)
+                       : read_volume_nifti(path, form, &v, e);
+    if (!good || !check_grid(&v, path, e)) {
         volume_free(&v);
         return false;
     }

@@ -13,12 +13,12 @@ static void write_header(const tetmesh *m, const point_array *arrays, int array_
     const char *vectors = "";
     for (int i = 0; i < array_count; i++)
         if (!strcmp(arrays[i].name, "displacement")) vectors = " Vectors=\"displacement\"";
-    fprintf(to,
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
-            "<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">76 80 83 0</Array>\n"
-            "</FieldData>\n<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64 "\">\n<PointData%s>\n",
-            n, cells, vectors);
+    fprintf(
+        to,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<!-- SPACE=LPS, mm -->\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"%" PRIu64
+        "\" NumberOfCells=\"%" PRIu64 "\">\n<PointData%s>\n",
+        n, cells, vectors);
     offset = vtk_announce_arrays(to, arrays, array_count, n, offset);
     fprintf(to, "</PointData>\n<CellData Scalars=\"region\">\n");
     offset = vtk_announce(to, "Int32", "region", 1, 4 * cells, offset);

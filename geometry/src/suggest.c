@@ -1,4 +1,4 @@
-#include "app/planner/store/suggest.h"
+#include "geometry/suggest.h"
 #include <ctype.h>
 #include <string.h>
 
