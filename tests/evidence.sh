@@ -218,6 +218,20 @@ END
         cat "$work/seeds.txt"
         echo '```'
     fi
+    if [ -f "$work/fuzz.txt" ]; then # the last table of nightly/fuzz.sh, which takes a night
+        cat <<'END'
+
+## Any bytes at all
+
+`sh tests/nightly/fuzz.sh` feeds every reader, in turns, what libFuzzer makes of its corpus, under the address and
+undefined-behaviour sanitizers, until ten million inputs have been tried. HDF5 is asked in a process of its own for each input;
+STL and OBJ are assimp's, which is slow.
+
+END
+        echo '```'
+        cat "$work/fuzz.txt"
+        echo '```'
+    fi
     cat <<END
 
 ## Stiff and extreme cases
