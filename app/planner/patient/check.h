@@ -14,6 +14,7 @@ typedef struct check_found {
     double diagonal_mm[CASE_SURFACE_COUNT];
     nearest *tree[CASE_SURFACE_COUNT];   /* over mesh; NULL: none */
     bool wrong_size[CASE_SURFACE_COUNT]; /* not a head in mm: what is measured on it says nothing */
+    bool misplaced[CASE_SURFACE_COUNT];  /* its landmarks lie off it all in one way, which is told */
     landmarks points;
     bool has_frame;
     double frame_residual_mm;
@@ -29,6 +30,11 @@ void check_surfaces(const case_file *c, check_found *found, issue_list *issues);
 /* Bones against skin; needs what check_surfaces found. */
 void check_bones_inside(const case_file *c, const check_found *found, issue_list *issues);
 void check_landmarks(const case_file *c, check_found *found, issue_list *issues);
+/* Surfaces off which their landmarks lie all in one way: moved, scaled, turned, mirrored, in other axes or units. */
+void check_place(const case_file *c, check_found *found, issue_list *issues);
+/* A landmark far from its usual place, and bones at an unusual depth below the skin; needs what check_place found. */
+void check_usual(const case_file *c, const check_found *found, issue_list *issues);
+void check_depth(const case_file *c, const check_found *found, issue_list *issues);
 /* The order of the landmarks, and that each lies on its own jaw; needs what check_surfaces found. */
 void check_order(const case_file *c, const check_found *found, issue_list *issues);
 void check_jaws(const case_file *c, const check_found *found, issue_list *issues);

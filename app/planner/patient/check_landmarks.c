@@ -87,36 +87,60 @@ static case_surface carrier(const landmark_row *r, const check_found *found)
     return r->on;
 }
 
-/* A landmark far from its surface is a slip of the hand; many of them belong to another patient, frame or
- * unit. */
+/* From a jaw or its teeth, whichever is nearer: crowns of a file of their own lie inside the bone on some scans. */
+static double distance_to(const check_found *found, case_surface on, const double p[3])
+{
+    static const case_surface other[] = {[CASE_SKIN] = CASE_SKIN,
+                                         [CASE_SKULL] = CASE_UPPER_TEETH,
+                                         [CASE_MANDIBLE] = CASE_LOWER_TEETH,
+                                         [CASE_UPPER_TEETH] = CASE_SKULL,
+                                         [CASE_LOWER_TEETH] = CASE_MANDIBLE};
+    double d = nearest_point(found->tree[on], p, NULL, NULL);
+    return other[on] != on && found->tree[other[on]] ? fmin(d, nearest_point(found->tree[other[on]], p, NULL, NULL))
+                                                     : d;
+}
+
+/* A landmark far from its surface is a slip of the hand; many of them mean that a piece of the surface is missing, or
+ * that they belong to another patient, frame or unit. */
 static void check_distance_to(const case_file *c, const check_found *found, case_surface on, issue_list *issues)
 {
-    enum { MANY = 3 };
-    const double doubtful_mm = 5, wrong_mm = 50;
-    char far[200] = "";
-    int wrong = 0, all = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < landmark_row_count; i++) {
-            const landmark_row *r = &landmark_rows[i];
-            const landmark *p = landmarks_find(&found->points, r->label);
-            if (!p || carrier(r, found) != on) continue;
-            double d = nearest_point(found->tree[on], p->xyz, NULL, NULL);
-            if (pass == 0) {
-                size_t used = strlen(far);
-                all++;
-                if (d <= wrong_mm) continue;
-                snprintf(far + used, sizeof far - used, "%s%s", wrong++ ? ", " : "", r->label);
-            } else if (d > doubtful_mm && (wrong < MANY || d <= wrong_mm)) {
-                issue_add(issues, d > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0, r->label,
-                          "lies %.1f mm from the %s; it should lie on it", d, case_surface_name(on));
-            }
-        }
+    enum { MANY = 6, MANY_WRONG = 3, LEFT_OUT_AFTER = 6 };
+    const double doubtful_mm = 2, stop_mm = 10, wrong_mm = 50, many_share = 0.35;
+    const char *word = case_surface_name(on);
+    char list[200] = "";
+    const landmark *off[2 * LANDMARK_LABEL_SIZE];
+    double off_mm[2 * LANDMARK_LABEL_SIZE], farthest = 0;
+    int all = 0, count = 0, wrong = 0;
+    for (int i = 0; i < landmark_row_count; i++) {
+        const landmark *p = landmarks_find(&found->points, landmark_rows[i].label);
+        if (!p || carrier(&landmark_rows[i], found) != on) continue;
+        double d = distance_to(found, on, p->xyz);
+        all++;
+        if (!(d > doubtful_mm) || count == 2 * LANDMARK_LABEL_SIZE) continue;
+        size_t used = strlen(list);
+        if (count <= LEFT_OUT_AFTER)
+            snprintf(list + used, sizeof list - used, "%s%s", count ? ", " : "",
+                     count < LEFT_OUT_AFTER ? p->label : "...");
+        farthest = fmax(farthest, d);
+        wrong += d > wrong_mm;
+        off[count] = p;
+        off_mm[count++] = d;
     }
-    if (wrong >= MANY)
+    if (count >= MANY_WRONG && wrong == count)
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->landmarks, 0, NULL,
                   "%d of %d landmarks lie more than %g mm from the %s; are both of one patient, in one frame "
                   "and in mm? (%s)",
-                  wrong, all, wrong_mm, case_surface_name(on), far);
+                  wrong, all, wrong_mm, word, list);
+    else if (count >= MANY && count > many_share * all)
+        issue_add(issues, found->has_frame && farthest > stop_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks,
+                  0, NULL,
+                  "%d of %d landmarks lie off the %s, by up to %.1f mm (%s): is a piece of it missing, or are they "
+                  "another head's?",
+                  count, all, word, farthest, list);
+    else
+        for (int i = 0; i < count; i++)
+            issue_add(issues, off_mm[i] > wrong_mm ? ISSUE_ERROR : ISSUE_WARNING, ERR_INPUT, c->landmarks, 0,
+                      off[i]->label, "lies %.1f mm from the %s; it should lie on it", off_mm[i], word);
 }
 
 static void check_sides(const case_file *c, const landmarks *l, issue_list *issues)
@@ -146,7 +170,7 @@ static void check_sides(const case_file *c, const landmarks *l, issue_list *issu
 
 static void check_frame(const case_file *c, check_found *found, issue_list *issues)
 {
-    const double uneven_mm = 4; /* of four points measured on a head: 1 to 2 mm */
+    const double uneven_mm = 2; /* of four points measured on a head: 1 to 2 mm */
     const landmarks *l = &found->points;
     head_frame f;
     err e = {0};
@@ -180,7 +204,11 @@ void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
     check_frame(c, found, issues);
     check_sides(c, &found->points, issues);
     check_order(c, found, issues);
-    check_jaws(c, found, issues);
+    check_place(c, found, issues);
+    if (!found->misplaced[CASE_SKULL] && !found->misplaced[CASE_MANDIBLE]) check_jaws(c, found, issues);
+    check_usual(c, found, issues);
+    check_depth(c, found, issues);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)
-        if (found->tree[i] && !found->wrong_size[i]) check_distance_to(c, found, (case_surface)i, issues);
+        if (found->tree[i] && !found->wrong_size[i] && !found->misplaced[i])
+            check_distance_to(c, found, (case_surface)i, issues);
 }

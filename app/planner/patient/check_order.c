@@ -2,6 +2,7 @@
 #include "app/planner/patient/check.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
+#include "geometry/vec.h"
 #include <string.h>
 
 typedef enum direction { IN_FRONT, ABOVE } direction;
@@ -32,10 +33,42 @@ static const struct order_row {
     {"L5_R", "L7_R", IN_FRONT, 0},
 };
 
+/* Two labels on one point: one of them was meant for another place. */
+static void check_apart(const case_file *c, const landmarks *l, issue_list *issues)
+{
+    const double one_place_mm = 0.05;
+    for (int i = 0; i < landmark_row_count; i++)
+        for (int k = i + 1; k < landmark_row_count; k++) {
+            const landmark *a = landmarks_find(l, landmark_rows[i].label);
+            const landmark *b = landmarks_find(l, landmark_rows[k].label);
+            if (a && b && vec_distance(a->xyz, b->xyz) < one_place_mm)
+                issue_add(issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, a->label,
+                          "lies on %s; one of them belongs elsewhere", b->label);
+        }
+}
+
+/* Molars of both sides: a lower arch that is much wider than the upper one, which a cross-bite of both sides is too. */
+static void check_widths(const case_file *c, const landmarks *l, issue_list *issues)
+{
+    const double most_mm = 3; /* norm: the upper arch is 7 mm wider */
+    const landmark *u[2] = {landmarks_find(l, "U6_L"), landmarks_find(l, "U6_R")};
+    const landmark *d[2] = {landmarks_find(l, "L6_L"), landmarks_find(l, "L6_R")};
+    if (!u[0] || !u[1] || !d[0] || !d[1]) return;
+    double upper = vec_distance(u[0]->xyz, u[1]->xyz), lower = vec_distance(d[0]->xyz, d[1]->xyz);
+    if (lower > upper + most_mm)
+        issue_add(
+            issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, "U6_L, U6_R",
+            "are %.1f mm apart and L6_L, L6_R %.1f mm; the upper molars should be the wider ones: exchanged, or a "
+            "cross-bite of both sides?",
+            upper, lower);
+}
+
 void check_order(const case_file *c, const check_found *found, issue_list *issues)
 {
     head_frame f;
     err e = {0};
+    check_apart(c, &found->points, issues);
+    check_widths(c, &found->points, issues);
     if (!found->has_frame || !head_frame_from_landmarks(&found->points, &f, &e)) return;
     for (size_t i = 0; i < sizeof order_rows / sizeof *order_rows; i++) {
         const struct order_row *r = &order_rows[i];

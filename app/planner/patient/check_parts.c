@@ -113,6 +113,16 @@ static void check_above(const parts *p, int upper, int lower, issue_list *issues
                   word(lower), -above, word(upper));
 }
 
+/* Of a part that is larger than the skull it is not the axes that are wrong. */
+static bool check_frame_of_jaws(const parts *p, issue_list *issues)
+{
+    if (!p->tree[CASE_SKULL] || !p->tree[CASE_MANDIBLE] || p->size_mm[CASE_MANDIBLE] > p->size_mm[CASE_SKULL])
+        return true;
+    bool above = p->middle[CASE_SKULL][2] < p->middle[CASE_MANDIBLE][2];
+    return check_axes(&p->mesh[CASE_SKULL], &p->mesh[CASE_MANDIBLE], p->tree[CASE_MANDIBLE], above,
+                      p->name[CASE_MANDIBLE], issues);
+}
+
 /* Share of the vertices of a that lie on or in b. */
 static double share_within(const parts *p, int a, int b)
 {
@@ -136,6 +146,24 @@ static void check_twice(const parts *p, int bone, int in, issue_list *issues)
                   "holds the %s too (%.0f %% of it lies in the %s): it would stay where it is as well as move; cut it "
                   "out of this surface",
                   word(bone), 100 * share, word(in));
+}
+
+/* A bone touches the skin nowhere but at a tooth or two. */
+static void check_skin_apart(const parts *p, int bone, issue_list *issues)
+{
+    const double on_mm = 0.1, most = 0.5;
+    const surface *s = &p->mesh[bone];
+    int count = s->vertex_count < SAMPLES ? s->vertex_count : SAMPLES, on = 0;
+    for (int k = 0; k < count; k++) {
+        const double *x = s->xyz + 3 * ((int64_t)k * s->vertex_count / count);
+        on += nearest_point(p->tree[CASE_SKIN], x, NULL, NULL) < on_mm;
+    }
+    if (on > most * count)
+        issue_add(
+            issues, ISSUE_ERROR, ERR_GEOMETRY, p->name[bone], 0, NULL,
+            "%d %% of the %s is the skin's own surface: is this the skin's file, or does the skin's file hold the "
+            "bone too?",
+            100 * on / count, word(bone));
 }
 
 static double mean_distance(const parts *p, int a, int b)
@@ -171,8 +199,16 @@ void check_parts(const surface mesh[CASE_SURFACE_COUNT], const char *const name[
     check_same(&p, issues);
     check_facing(&p, issues);
     measure(&p);
-    check_above(&p, CASE_SKULL, CASE_MANDIBLE, issues);
-    check_above(&p, CASE_UPPER_TEETH, CASE_LOWER_TEETH, issues);
+    if (check_frame_of_jaws(&p, issues)) {
+        check_above(&p, CASE_SKULL, CASE_MANDIBLE, issues);
+        check_above(&p, CASE_UPPER_TEETH, CASE_LOWER_TEETH, issues);
+    }
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) {
+        if (!tree[i]) continue;
+        check_pieces(&mesh[i], name[i], (case_surface)i, issues);
+        check_slices(&mesh[i], name[i], (case_surface)i, issues);
+        if (i != CASE_SKIN && tree[CASE_SKIN]) check_skin_apart(&p, i, issues);
+    }
     check_twice(&p, CASE_MANDIBLE, CASE_SKULL, issues);
     check_twice(&p, CASE_SKULL, CASE_MANDIBLE, issues);
     check_teeth(&p, CASE_UPPER_TEETH, CASE_SKULL, CASE_MANDIBLE, issues);

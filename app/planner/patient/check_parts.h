@@ -8,5 +8,12 @@
  * for the others and where that is refused, which is an error among the issues; the caller destroys them. */
 void check_trees(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT],
                  nearest *tree[CASE_SURFACE_COUNT], issue_list *issues);
+/* A part that its file holds twice or of two people, and stairs of thick slices. */
+void check_pieces(const surface *s, const char *file, case_surface part, issue_list *issues);
+void check_slices(const surface *s, const char *file, case_surface part, issue_list *issues);
+/* Whether the head lies in LPS, as its jaws show; tree: over the mandible. sure: an error, not a warning. False: told.
+ */
+bool check_axes(const surface *skull, const surface *mandible, const nearest *tree, bool sure, const char *file,
+                issue_list *issues);
 void check_parts(const surface mesh[CASE_SURFACE_COUNT], const char *const name[CASE_SURFACE_COUNT],
                  nearest *const tree[CASE_SURFACE_COUNT], issue_list *issues);

@@ -20,10 +20,10 @@ static bool is_wrong_size(const case_file *c, double d, issue_list *issues)
     static const struct {
         double per_mm;
         const char *unit;
-    } units[] = {{1000, "metres"}, {10, "centimetres"}};
+    } units[] = {{1000, "metres"}, {10, "centimetres"}, {25.4, "inches"}};
     const char *path = c->surface[CASE_SKIN];
     if (d >= head_least_mm && d <= head_most_mm) return false;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         double mm = d * units[i].per_mm;
         if (mm < head_least_mm || mm > head_most_mm) continue;
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, path, 0, NULL,

@@ -114,8 +114,9 @@ static bool check_size(const import_params *p, const import_result *r, err *e)
                           "the skin measures %.3g corner to corner: is it in %s? If so, say --unit %s", d, unit[i].word,
                           unit[i].option);
     return err_at(e, ERR_INPUT, skin->source, 0, NULL,
-                  "the skin measures %.4g mm corner to corner; a head measures %g to %g mm", d, head_least_mm,
-                  head_most_mm);
+                  "the skin measures %.4g mm corner to corner; a head measures %g to %g mm%s", d, head_least_mm,
+                  head_most_mm,
+                  d * 25.4 >= head_least_mm && d * 25.4 <= head_most_mm ? ": is it in inches? Save it in mm" : "");
 }
 
 /* Bones far outside the skin's box: of another patient, frame or unit. */
@@ -265,6 +266,7 @@ bool import_read(const import_params *p, const task *watch, import_result *out, 
         return false;
     }
     note_landmarks(&r, notes);
+    import_note_as_case(p, &r, notes);
     *out = r;
     return true;
 }

@@ -60,6 +60,8 @@ bool import_read(const import_params *p, const task *watch, import_result *out, 
 bool import_write(const import_params *p, const import_result *r, const char *folder, err *e) MUST_CHECK;
 void import_result_free(import_result *r);
 
+/* Adds what check will say of bones against skin and of landmarks. */
+void import_note_as_case(const import_params *p, const import_result *r, issue_list *notes);
 /* The parts that come from a label map or a CT. */
 bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e) MUST_CHECK;
 bool import_is_mesh_name(const char *text);

@@ -73,6 +73,19 @@ static void note_unused(const import_params *p, const volume *v, const char *whe
                   "%d label%s make%s no part of the case: %s", count, count > 1 ? "s" : "", count > 1 ? "" : "s", text);
 }
 
+static void note_thick(const volume *v, const char *where, issue_list *notes)
+{
+    const double most_mm = 2.5;
+    double side[3];
+    for (int k = 0; k < 3; k++) side[k] = vec_norm(v->step[k]);
+    if (fmax(side[0], fmax(side[1], side[2])) > most_mm)
+        issue_add(
+            notes, ISSUE_WARNING, ERR_NONE, where, 0, NULL,
+            "has voxels of %.2g x %.2g x %.2g mm: surfaces from slices this thick are known to no better than half of "
+            "that; up to %g mm would be right",
+            side[0], side[1], side[2], most_mm);
+}
+
 /* Drops islands, fills what is enclosed and belongs to no other part. */
 static void clean_bones(const import_params *p, const volume *v, const char *where, mask *m, import_result *out,
                         issue_list *notes)
@@ -129,6 +142,7 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
         snprintf(where, sizeof where, "%s", p->labels.word[0]);
     else
         snprintf(where, sizeof where, "%.1000s and %d more", p->labels.word[0], p->labels.count - 1);
+    note_thick(&v, where, notes);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) m[i] = mask_new(v.size);
     bool good = choose_labels(p, &v, where, out, &choice, e);
     if (good) {

@@ -1,4 +1,5 @@
 #include "app/planner/plan/plan_moves.h"
+#include "app/planner/plan/plan_words.h"
 #include "geometry/frame.h"
 #include "geometry/rig.h"
 #include "geometry/vec.h"
@@ -161,6 +162,7 @@ bool plan_moves_make(const plan_file *p, const case_file *c, const landmarks *l,
         for (int i = 0; i < count; i++) check_limit(p, c, (segment_id)id, (limit_id)((int)first + i), value[i], issues);
     }
     if (issue_count(issues, ISSUE_ERROR) > errors) return false;
+    plan_words_check(p, m.move, l, &f, issues);
     *out = m;
     return true;
 }
