@@ -116,8 +116,10 @@ static void check_above(const parts *p, int upper, int lower, issue_list *issues
 /* Of a part that is larger than the skull it is not the axes that are wrong. */
 static bool check_frame_of_jaws(const parts *p, issue_list *issues)
 {
-    if (!p->tree[CASE_SKULL] || !p->tree[CASE_MANDIBLE] || p->size_mm[CASE_MANDIBLE] > p->size_mm[CASE_SKULL])
-        return true;
+    static const case_surface smaller[] = {CASE_MANDIBLE, CASE_UPPER_TEETH, CASE_LOWER_TEETH};
+    if (!p->tree[CASE_SKULL] || !p->tree[CASE_MANDIBLE]) return true;
+    for (int i = 0; i < 3; i++)
+        if (p->tree[smaller[i]] && p->size_mm[smaller[i]] > p->size_mm[CASE_SKULL]) return true;
     bool above = p->middle[CASE_SKULL][2] < p->middle[CASE_MANDIBLE][2];
     return check_axes(&p->mesh[CASE_SKULL], &p->mesh[CASE_MANDIBLE], p->tree[CASE_MANDIBLE], above,
                       p->name[CASE_MANDIBLE], issues);
