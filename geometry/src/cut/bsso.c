@@ -18,7 +18,7 @@ static cutter block(const jaw_side *j, const osteotomy_params *p, double *moved_
     double bottom = fmin(jaw_side_border(j, j->m2[1]), j->low[2]) - 2 * margin_mm;
     double lowest = fmin(j->border_at_v, j->lingual[1][1]) - 2;
     jaw_side as_fitted = *j;
-    as_fitted.plate_mm = 0;
+    as_fitted.plate.least_mm = 0;
     *moved_mm = 0;
     for (int l = 0; l < LEVELS; l++) {
         double z = l < HEIGHTS ? j->top + l / (HEIGHTS - 1.0) * (lowest - j->top) : bottom, zs = fmax(z, lowest);
@@ -153,14 +153,14 @@ static bool bodies_of(jaw_side *j, const osteotomy_params *p, cut_bodies *out, c
 }
 
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,
-                 double plate_mm, cut_bodies *out, cut_report *r, err *e)
+                 lateral_plate plate, cut_bodies *out, cut_report *r, err *e)
 {
     char label[6][LANDMARK_LABEL_SIZE];
     const char *needed[7];
     jaw_side j;
     jaw_side_needs(side, label, needed);
     if (!need_landmarks(in->points, "BSSO", needed, e) || !jaw_side_open(in, mandible, side, &j, e)) return false;
-    j.plate_mm = plate_mm;
+    j.plate = plate;
     bool ok = bodies_of(&j, p, out, r, e);
     jaw_side_close(&j);
     return ok;

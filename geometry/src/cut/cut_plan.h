@@ -16,11 +16,17 @@ void cut_bodies_free(cut_bodies *b);
 /* Offsets of one cutter whose body is the piece. */
 cut_bodies cut_bodies_from(const cutter *c, double kerf_mm);
 
-/* The osteotomies. side: +1 left, -1 right. plate_mm: least lateral plate that a split leaves behind the molars, by
- * moving inwards where the sheet would run nearer to the outside or beyond it; 0: as the sheet is fitted. */
+/* What a split leaves of the lateral plate behind the molars, by moving inwards where the sheet would run nearer to the
+ * outside or beyond it. */
+typedef struct lateral_plate {
+    double least_mm; /* 0: as the sheet is fitted */
+    double reach_mm; /* of moves; a sheet twice as far out passes the alveolus and stays */
+} lateral_plate;
+
+/* The osteotomies. side: +1 left, -1 right. */
 bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e);
 bool bsso_bodies(const osteotomy_input *in, const osteotomy_params *p, const nearest *mandible, int side,
-                 double plate_mm, cut_bodies *out, cut_report *r, err *e);
+                 lateral_plate plate, cut_bodies *out, cut_report *r, err *e);
 bool genioplasty_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bodies *out, cut_report *r, err *e);
 
 /* Warns of landmarks on another piece than anatomy puts them on. */

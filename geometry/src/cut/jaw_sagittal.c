@@ -74,17 +74,18 @@ bool jaw_side_fit_sagittal(jaw_side *j, const osteotomy_params *p)
 }
 
 /* How far the cut at x must move inwards to leave the plate, over the part of the sheet that hangs on a corner of it.
- * No farther than the plate is deep: where the sheet lies farther outside, it passes the alveolus and no plate is
- * meant. */
-static double into_plate(const jaw_side *j, const osteotomy_params *p, double x, double y, double z)
+ * No farther than the plate's reach: where the sheet lies farther outside, it passes the alveolus and no plate is
+ * meant.
+ */
+static double into_plate(const jaw_side *j, double x, double y, double z)
 {
     static const double around_mm = 3;
     double most = HUGE_VAL, out, in;
     for (int a = -1; a <= 1; a++)
         for (int b = -1; b <= 1; b++)
             if (jaw_side_cross(j, y + a * around_mm, z + b * around_mm, &out, &in))
-                most = fmin(most, out - fmin(j->plate_mm, (out - in) / 2));
-    return fmax(fmin(x - most, 2 * p->buccal_depth_mm - (x - most)), 0);
+                most = fmin(most, out - fmin(j->plate.least_mm, (out - in) / 2));
+    return fmax(fmin(x - most, 2 * j->plate.reach_mm - (x - most)), 0);
 }
 
 double jaw_side_sagittal_x(const jaw_side *j, const osteotomy_params *p, double y, double z)
@@ -96,7 +97,7 @@ double jaw_side_sagittal_x(const jaw_side *j, const osteotomy_params *p, double 
     for (int k = -3; k <= 3; k++) /* up to halfway to the next stations, because the sheet is straight between them */
         if (jaw_side_canal_at(j, y + k, canal) && fabs(z - canal[1]) < 6)
             x = fmax(x, canal[0] + canal[2] * p->canal_clearance_mm);
-    if (j->plate_mm > 0) x -= into_plate(j, p, x, y, inside_bone);
+    if (j->plate.least_mm > 0) x -= into_plate(j, x, y, inside_bone);
     double u = fmin(fmax((y - j->l6[1]) / (j->l7[1] - j->l6[1]), 0),
                     1), /* beside the molars, fading behind and below */
         away = fmax(y - j->l7[1], 0) + fmax(j->l7[2] - 10 - z, 0);

@@ -18,7 +18,7 @@ typedef struct jaw_side {
     double lingual[2][2];       /* y, z of the lingual cut: above and below */
     double border_at_v;         /* height of the lower border there */
     double fit[SAGITTAL_TERMS]; /* sagittal cut: x = 1, y, z, y^2, yz */
-    double plate_mm;            /* least bone outside it behind the molars; 0: as it is fitted */
+    lateral_plate plate;        /* outside it behind the molars */
     double canal[CANAL_POINTS_MAX][3];
     int canal_count;
     outline lower, posterior; /* lower border over y, posterior border over z */

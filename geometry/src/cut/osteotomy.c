@@ -86,9 +86,9 @@ static bool check_input(const osteotomy_input *in, err *e)
     return true;
 }
 
-/* One cut of a bone; plate_mm as in bsso_bodies. */
+/* One cut of a bone; plate as in bsso_bodies. */
 static bool cut_once(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
-                     double plate_mm, const surface *bone, sawn *out, err *e)
+                     lateral_plate plate, const surface *bone, sawn *out, err *e)
 {
     bool upper = id == SEGMENT_MAXILLA, planes = has_planes(in, id);
     cut_bodies b = {0};
@@ -104,22 +104,23 @@ static bool cut_once(const osteotomy_input *in, const osteotomy_params *p, segme
     bool ok = planes               ? plane_bodies(in, segment_name(id), bone, p, &b, r, e)
               : upper              ? le_fort_bodies(in, p, &b, r, e)
               : id == SEGMENT_CHIN ? genioplasty_bodies(in, p, &b, r, e)
-                                   : bsso_bodies(in, p, jaw, id == SEGMENT_PROXIMAL_LEFT ? 1 : -1, plate_mm, &b, r, e);
+                                   : bsso_bodies(in, p, jaw, id == SEGMENT_PROXIMAL_LEFT ? 1 : -1, plate, &b, r, e);
     ok = ok && sawn_make(name, &b, id, upper ? SEGMENT_CRANIUM : SEGMENT_DISTAL, p, bone, out, e);
     cut_bodies_free(&b);
     return ok;
 }
 
-/* A split that came out of the lateral plate is laid anew further inside, for a thicker plate until no window is left.
- */
+/* A split that came out of the lateral plate is laid anew further inside, for a thicker plate until no window is left;
+ * then from farther out. */
 static void lay_anew(const osteotomy_input *in, const osteotomy_params *p, segment_id id, const nearest *jaw,
                      const surface *bone, sawn *s)
 {
     const breach first = s->where;
-    for (double plate_mm = 1.5; s->made > 0 && plate_mm <= 3.5; plate_mm++) {
+    for (int k = 0; s->made > 0 && k < 6; k++) {
+        lateral_plate plate = {1.5 + k % 3, p->buccal_depth_mm * (1 + k / 3)};
         sawn again = {0};
         err unused = {0}; /* a cut that cannot be laid there is no fault of the one that can */
-        bool better = cut_once(in, p, id, jaw, plate_mm, bone, &again, &unused) && again.made < s->made;
+        bool better = cut_once(in, p, id, jaw, plate, bone, &again, &unused) && again.made < s->made;
         if (better) {
             sawn worse = *s;
             *s = again;
@@ -128,7 +129,7 @@ static void lay_anew(const osteotomy_input *in, const osteotomy_params *p, segme
                            "%s: as first laid, the split came out of the lateral plate in a window of %.1f mm near %s "
                            "(%.1f, %.1f, %.1f); it was moved inwards by up to %.1f mm to leave a plate of %.1f mm",
                            segment_name(id), first.wide_mm, breach_landmark(&first, in->points), first.place[0],
-                           first.place[1], first.place[2], s->moved_mm, plate_mm);
+                           first.place[1], first.place[2], s->moved_mm, plate.least_mm);
         }
         sawn_free(&again);
     }
@@ -144,7 +145,7 @@ static bool cut_segment(const osteotomy_input *in, const osteotomy_params *p, se
     bool planes = has_planes(in, id);
     if (!planes && !(in->kinds & kind)) return true;
     sawn cut = {0};
-    bool ok = cut_once(in, p, id, jaw, 0, s->part + rest, &cut, e);
+    bool ok = cut_once(in, p, id, jaw, (lateral_plate){0}, s->part + rest, &cut, e);
     if (ok && !planes && kind == OSTEOTOMY_BSSO) lay_anew(in, p, id, jaw, s->part + rest, &cut);
     if (ok) {
         surface kerf = surface_joined(&s->kerf, &cut.kerf), bone = s->part[rest];
