@@ -116,8 +116,8 @@ static void lay_anew(const osteotomy_input *in, const osteotomy_params *p, segme
                      const surface *bone, sawn *s)
 {
     const breach first = s->where;
-    for (int k = 0; s->made > 0 && k < 6; k++) {
-        lateral_plate plate = {1.5 + k % 3, p->buccal_depth_mm * (1 + k / 3)};
+    for (int k = 0; s->made > 0 && k < 12; k++) {
+        lateral_plate plate = {1.5 + k % 4, p->buccal_depth_mm * (1 + k / 4)};
         sawn again = {0};
         err unused = {0}; /* a cut that cannot be laid there is no fault of the one that can */
         bool better = cut_once(in, p, id, jaw, plate, bone, &again, &unused) && again.made < s->made;
