@@ -169,6 +169,20 @@ static bool parts_of_labels(const import_params *p, const task *watch, import_re
     return good;
 }
 
+/* Share of the voxels on the sides of the volume, but for its ends, that are as bright as bone. */
+static double bright_share(const volume *v)
+{
+    static const double bone_hu = 300;
+    int64_t bright = 0, all = 0;
+    for (int64_t i = 0; i < (int64_t)v->size[0] * v->size[1] * v->size[2]; i++) {
+        int64_t x = i % v->size[0], y = i / v->size[0] % v->size[1];
+        if (x > 0 && x < v->size[0] - 1 && y > 0 && y < v->size[1] - 1) continue;
+        bright += v->value[i] > bone_hu;
+        all++;
+    }
+    return (double)bright / (double)all;
+}
+
 /* Around a head there is air, at -1000 HU; scanners that count from 0 or 1024 below say other numbers. */
 static bool check_grey_values(const import_params *p, const volume *v, err *e)
 {
@@ -191,6 +205,11 @@ static bool check_grey_values(const import_params *p, const volume *v, err *e)
         return err_at(e, ERR_INPUT, p->ct, 0, NULL,
                       "no voxel is near -1000 HU, as air is (values are %d to %d): the values may not be Hounsfield "
                       "units; name the grey value of the skin's surface with --skin-hu",
+                      low, high);
+    if (!p->skin_hu_given && bright_share(v) > 0.5)
+        return err_at(e, ERR_INPUT, p->ct, 0, NULL,
+                      "is as bright as bone on most of its sides (values are %d to %d), where air should be: the grey "
+                      "values may be turned round, and are no Hounsfield units",
                       low, high);
     return true;
 }
