@@ -1,5 +1,6 @@
 #include "geometry/surface.h"
 #include "geometry/mem.h"
+#include "geometry/src/union_find.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -156,12 +157,6 @@ void surface_edge_census(const surface *s, int32_t *boundary_edges, int32_t *non
     free(edge);
 }
 
-static int32_t find_root(int32_t *parent, int32_t v)
-{
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-}
-
 int32_t surface_hole_count(const surface *s)
 {
     size_t count = 3 * (size_t)s->triangle_count;
@@ -171,7 +166,7 @@ int32_t surface_hole_count(const surface *s)
     for (size_t i = 0, j; i < count; i = j) {
         for (j = i + 1; j < count && !compare_edges(edge + 2 * i, edge + 2 * j); j++) {}
         if (j - i != 1) continue;
-        int32_t a = find_root(parent, edge[2 * i]), b = find_root(parent, edge[2 * i + 1]);
+        int32_t a = union_root(parent, edge[2 * i]), b = union_root(parent, edge[2 * i + 1]);
         int joined = (touched[edge[2 * i]] != 0) + (touched[edge[2 * i + 1]] != 0);
         if (a != b) parent[a] = b;
         holes += joined == 0 ? 1 : joined == 2 && a != b ? -1 : 0;
@@ -192,7 +187,7 @@ int32_t surface_components(const surface *s, int32_t **component)
     }
     for (int32_t t = 0; t < s->triangle_count; t++)
         for (int k = 1; k < 3; k++) {
-            int32_t a = find_root(parent, s->tri[3 * (size_t)t]), b = find_root(parent, s->tri[3 * (size_t)t + k]);
+            int32_t a = union_root(parent, s->tri[3 * (size_t)t]), b = union_root(parent, s->tri[3 * (size_t)t + k]);
             if (a < b)
                 parent[b] = a;
             else
@@ -201,7 +196,7 @@ int32_t surface_components(const surface *s, int32_t **component)
     int32_t count = 0;
     *component = NEW_ARRAY(int32_t, s->triangle_count);
     for (int32_t t = 0; t < s->triangle_count; t++) {
-        int32_t root = find_root(parent, s->tri[3 * (size_t)t]);
+        int32_t root = union_root(parent, s->tri[3 * (size_t)t]);
         if (number[root] < 0) number[root] = count++;
         (*component)[t] = number[root];
     }

@@ -1,6 +1,7 @@
 #include "geometry/src/cut/breach.h"
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
+#include "geometry/src/union_find.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -53,12 +54,6 @@ static edge *border_of(const surface *s, int32_t *count)
     return list;
 }
 
-static int32_t root(int32_t *parent, int32_t v)
-{
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-}
-
 typedef struct border { /* a closed line of border edges */
     double length, low[3], high[3];
     int32_t part;
@@ -69,9 +64,9 @@ static border *borders_of(const surface *s, const edge *list, int32_t count)
     int32_t *parent = NEW_ARRAY(int32_t, s->vertex_count);
     border *all = NEW_ARRAY(border, s->vertex_count); /* at the root of each line; length 0: none */
     for (int32_t v = 0; v < s->vertex_count; v++) parent[v] = v;
-    for (int32_t i = 0; i < count; i++) parent[root(parent, list[i].low)] = root(parent, list[i].high);
+    for (int32_t i = 0; i < count; i++) parent[union_root(parent, list[i].low)] = union_root(parent, list[i].high);
     for (int32_t i = 0; i < count; i++) {
-        border *b = &all[root(parent, list[i].low)];
+        border *b = &all[union_root(parent, list[i].low)];
         const double *p = s->xyz + 3 * (size_t)list[i].low, *q = s->xyz + 3 * (size_t)list[i].high;
         for (int c = 0; c < 3; c++) {
             b->low[c] = fmin(b->length > 0 ? b->low[c] : HUGE_VAL, fmin(p[c], q[c]));

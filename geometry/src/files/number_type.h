@@ -1,5 +1,6 @@
-/* number_type: numbers as binary files store them. Private. */
+/* number_type: numbers as files store them. Private. */
 #pragma once
+#include "geometry/src/files/scan.h"
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -55,4 +56,20 @@ static inline double number_at(const void *p, number_type type, bool swap)
 #undef NUMBER_CASE
     default: return 0;
     }
+}
+
+/* The next number of a file, words or bytes; words of a 32-bit type are rounded, so that both forms say the same. False
+ * where there is none. */
+static inline bool number_next(scan *s, bool binary, bool swap, number_type type, double *out)
+{
+    if (!binary) {
+        if (!scan_number(s, out)) return false;
+        if (type == NUMBER_F32) *out = (double)(float)*out;
+        return true;
+    }
+    size_t n = number_size(type);
+    if ((size_t)(s->end - s->at) < n) return false;
+    *out = number_at(s->at, type, swap);
+    s->at += n;
+    return true;
 }

@@ -3,7 +3,6 @@
 #include "geometry/mem.h"
 #include "geometry/src/files/number_type.h"
 #include "geometry/src/files/read_mesh.h"
-#include "geometry/src/files/scan.h"
 #include <stdlib.h>
 
 enum { ELEMENTS_MOST = 16, PROPERTIES_MOST = 64 };
@@ -135,20 +134,6 @@ static bool read_header(ply *p, err *e)
     return refuse(p, "missing is", "end_header", e);
 }
 
-static bool next_number(ply *p, number_type type, double *out)
-{
-    if (!p->binary) {
-        if (!scan_number(&p->text, out)) return false;
-        if (type == NUMBER_F32) *out = (double)(float)*out; /* as the same file in binary */
-        return true;
-    }
-    size_t n = number_size(type);
-    if ((size_t)(p->text.end - p->text.at) < n) return false;
-    *out = number_at(p->text.at, type, p->swap);
-    p->text.at += n;
-    return true;
-}
-
 static bool read_item(ply *p, const element *of, polygons *out)
 {
     double number = 0, xyz[3] = {0}, length = 1;
@@ -156,10 +141,11 @@ static bool read_item(ply *p, const element *of, polygons *out)
     for (int i = 0; i < of->property_count; i++) {
         const property *is = of->property + i;
         length = 1;
-        if (is->length != NUMBER_UNKNOWN && (!next_number(p, is->length, &length) || !(length >= 0 && length <= 1e15)))
+        if (is->length != NUMBER_UNKNOWN &&
+            (!number_next(&p->text, p->binary, p->swap, is->length, &length) || !(length >= 0 && length <= 1e15)))
             return false;
         for (int64_t k = 0; k < (int64_t)length; k++) {
-            if (!next_number(p, is->type, &number)) return false;
+            if (!number_next(&p->text, p->binary, p->swap, is->type, &number)) return false;
             if (is->is != ROLE_CORNERS) continue;
             if (!(number >= -1e15 && number <= 1e15) || (double)(int64_t)number != number) return false;
             polygons_add_corner(out, (int64_t)number);

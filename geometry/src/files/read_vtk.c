@@ -3,7 +3,6 @@
 #include "geometry/mem.h"
 #include "geometry/src/files/number_type.h"
 #include "geometry/src/files/read_mesh.h"
-#include "geometry/src/files/scan.h"
 #include <stdlib.h>
 
 static const long long count_most = INT64_C(1) << 52;
@@ -38,16 +37,7 @@ static number_type type_named(const char *name)
 /* Binary numbers have their high byte first. */
 static bool next_number(vtk *v, number_type type, double *out)
 {
-    if (!v->binary) {
-        if (!scan_number(&v->text, out)) return false;
-        if (type == NUMBER_F32) *out = (double)(float)*out; /* as the same file in binary */
-        return true;
-    }
-    size_t n = number_size(type);
-    if ((size_t)(v->text.end - v->text.at) < n) return false;
-    *out = number_at(v->text.at, type, __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
-    v->text.at += n;
-    return true;
+    return number_next(&v->text, v->binary, __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, type, out);
 }
 
 static bool next_whole(vtk *v, number_type type, int64_t *out)

@@ -2,6 +2,7 @@
  * gets a copy of the node. Nodes on the rim of the sheet have one group and stay whole. */
 #include "geometry/src/tissue/tissue_fissure.h"
 #include "geometry/mem.h"
+#include "geometry/src/union_find.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -54,12 +55,6 @@ static void join_crumbs(tetmesh *m, const int32_t *across, const uint8_t *cut)
     free(seen);
 }
 
-static int32_t root_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /* The nodes of the facets to be cut: touched[vertex_count]. */
 static void mark_nodes(const tetmesh *m, const uint8_t *cut, uint8_t *touched)
 {
@@ -82,7 +77,7 @@ static int32_t *group_slots(const tetmesh *m, const int32_t *across, const uint8
                 int32_t i = 4 * t + tet_face[k][a], j = 4 * other, v = m->tet[i];
                 if (!touched[v]) continue;
                 while (m->tet[j] != v) j++;
-                int32_t x = root_of(parent, i), y = root_of(parent, j);
+                int32_t x = union_root(parent, i), y = union_root(parent, j);
                 if (x < y)
                     parent[y] = x;
                 else
@@ -110,7 +105,7 @@ static copies number_groups(const tetmesh *m, const uint8_t *touched, int32_t *p
     for (size_t i = 0; i < slots; i++) {
         int32_t v = m->tet[i];
         if (!touched[v]) continue;
-        int32_t root = root_of(parent, (int32_t)i);
+        int32_t root = union_root(parent, (int32_t)i);
         if (c.group_node[root] >= 0) continue;
         c.group_node[root] = seen[v] ? c.total++ : v;
         seen[v] = 1;
@@ -129,7 +124,7 @@ static void split_nodes(tetmesh *m, uint8_t **side, const uint8_t *touched, int3
     for (size_t i = 0; i < 4 * (size_t)m->tet_count; i++) {
         int32_t v = m->tet[i];
         if (v >= old_count || !touched[v]) continue;
-        int32_t copy = c->group_node[root_of(parent, (int32_t)i)];
+        int32_t copy = c->group_node[union_root(parent, (int32_t)i)];
         vec_copy(m->xyz + 3 * (size_t)v, m->xyz + 3 * (size_t)copy);
         (*side)[copy] = (*side)[v];
         m->tet[i] = copy;
