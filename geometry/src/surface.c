@@ -234,10 +234,14 @@ surface surface_select(const surface *s, const uint8_t *keep)
 surface surface_joined(const surface *a, const surface *b)
 {
     surface out = surface_new(a->vertex_count + b->vertex_count, a->triangle_count + b->triangle_count);
-    memcpy(out.xyz, a->xyz, 3 * (size_t)a->vertex_count * sizeof *out.xyz);
-    memcpy(out.xyz + 3 * (size_t)a->vertex_count, b->xyz, 3 * (size_t)b->vertex_count * sizeof *out.xyz);
-    memcpy(out.tri, a->tri, 3 * (size_t)a->triangle_count * sizeof *out.tri);
-    for (size_t i = 0; i < 3 * (size_t)b->triangle_count; i++)
-        out.tri[3 * (size_t)a->triangle_count + i] = b->tri[i] + a->vertex_count;
+    const surface *part[2] = {a, b};
+    size_t first = 0, triangle = 0;
+    for (int k = 0; k < 2; k++) {
+        size_t vertices = (size_t)part[k]->vertex_count, triangles = (size_t)part[k]->triangle_count;
+        if (vertices) memcpy(out.xyz + 3 * first, part[k]->xyz, 3 * vertices * sizeof *out.xyz);
+        for (size_t i = 0; i < 3 * triangles; i++) out.tri[3 * triangle + i] = part[k]->tri[i] + (int32_t)first;
+        first += vertices;
+        triangle += triangles;
+    }
     return out;
 }
