@@ -36,7 +36,7 @@ never app/report 'app/(study|stress)/' 'the page needs pictures and the planner 
 never app/study 'app/(pictures|report|stress)/' 'study needs the planner only'
 never app/stress 'app/(pictures|report|study)/' 'stress needs the planner only'
 above= # one room of the planner on the next, from the top
-for room in bounds predict judge plan patient store; do
+for room in bounds predict judge plan identity patient store; do
     [ -n "$above" ] && never "app/planner/$room" "app/planner/($above)/" "$room is below $above"
     above=${above:+$above|}$room
 done
