@@ -1,0 +1,37 @@
+/* head_fit: the template on a patient. First as a whole (head_place), then bent: least elastic energy of the template
+ * under point constraints at the patient's surfaces, stiffer from stage to stage with targets found anew in each; parts
+ * of the scan that are open or missing carry no target. Bones bend on their own, teeth turn, shift and grow one by one;
+ * the tissue follows: to the shape at rest, then to the neutral one. Specification 1.2; Amberg and others 2007 for the
+ * stages. */
+#pragma once
+#include "app/planner/identity/head_place.h"
+
+typedef struct head_fit_params {
+    double tissue_young_kpa, poisson;
+    bool use_landmarks; /* for the place; they never pull on the bent template */
+} head_fit_params;
+head_fit_params head_fit_params_default(void);
+
+typedef struct head_gaps { /* from the template's vertices to the patient's surface, of those that carried a target */
+    int32_t vertices, with_target;
+    double mean_mm, p95_mm, max_mm;
+} head_gaps;
+
+typedef struct head_fit {
+    head_place place;
+    head_shape shape;                   /* in the patient's frame */
+    double *gap_mm[CASE_SURFACE_COUNT]; /* [vertex_count] distance to the patient's surface; NAN: no target there */
+    uint8_t
+        *guessed[CASE_SURFACE_COUNT]; /* [vertex_count] 1: the scan has nothing there, the place is the template's */
+    head_gaps gaps[CASE_SURFACE_COUNT];
+    double min_j; /* of the tissue against the template, rest and neutral */
+    int32_t inverted_tets;
+    int iterations, factorisations;
+    double place_s, bones_s, tissue_s, total_s; /* wall */
+} head_fit;
+
+/* Refuses what head_place_find refuses, and (ERR_NOT_CONVERGED) a fit with an inverted tet or a stage whose solve
+ * fails. The caller frees *out. */
+bool head_fit_make(const head_template *t, const head_scan *s, const head_fit_params *p, const task *watch,
+                   head_fit *out, err *e) MUST_CHECK;
+void head_fit_free(head_fit *f);
