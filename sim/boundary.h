@@ -16,6 +16,7 @@
 #include "geometry/rigid.h"
 #include "geometry/segments.h"
 #include "geometry/tetmesh.h"
+#include "sim/targets.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -33,6 +34,8 @@ typedef struct boundary {
  * the mesh; (ERR_GEOMETRY) nodes in no tet and any part of the mesh that its tied and sliding nodes do not
  * hold in place: each is named by its size and position. */
 bool boundary_make(const tetmesh *m, const attach_map *a, boundary *out, err *e) MUST_CHECK;
+/* The same where targets (may be NULL) hold the mesh too. */
+bool boundary_make_drawn(const tetmesh *m, const attach_map *a, const targets *t, boundary *out, err *e) MUST_CHECK;
 void boundary_free(boundary *b);
 
 /* Moves the bones: new origin, basis and guide; the numbering of unknowns stays. */

@@ -18,6 +18,7 @@
 #pragma once
 #include "sim/assemble.h"
 #include "sim/contact.h"
+#include "sim/targets.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -75,7 +76,7 @@ typedef struct solve_params {
     int max_iterations; /* at one load */
     int max_step_cuts;  /* halvings within one line search */
     double rel_tol;     /* of the residual with the bones moved and the free tissue carried rigidly; the last step
-                           must be small too, below sqrt(rel_tol) of how far the bones move */
+                           must be small too, below sqrt(rel_tol) of how far the bones move or the targets draw */
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
@@ -98,6 +99,8 @@ typedef struct equilibrium_problem {
     const region_material *materials;
     int32_t material_count;
     const contact_setup *contact; /* NULL: sliding and paired nodes keep in touch, nothing else touches */
+    const targets *targets;       /* that points of the tissue are drawn to, or NULL. They hold it too: a part needs no
+                                     bone where they, as they are when the solver is made, leave it no rigid motion */
     rigid motion[SEGMENT_COUNT];  /* where each bone goes from rest */
     const double *start_xyz;      /* [3*nodes] a guess at the result, or NULL */
 } equilibrium_problem;

@@ -16,7 +16,7 @@ extern "C" {
 typedef struct scene_params {
     double tolerance_mm; /* displacement that may be missed */
     int max_rounds;      /* solves in all; the last one takes everything. 1: no second solve */
-    bool full;           /* everything is solved for, nothing is estimated */
+    bool full;           /* everything is solved for, nothing is estimated; so it is where there are targets */
 } scene_params;
 
 scene_params scene_params_default(void);

@@ -8,9 +8,9 @@ extern "C" {
 
 typedef struct solver solver;
 
-/* motion and start_xyz of the problem are not looked at; mesh, attach and contact are borrowed until solver_destroy.
- * blas_threads >= 1, see linear.h. The caller destroys *out. Refuses what equilibrium_solve refuses, but of the
- * motions and parameters. */
+/* motion and start_xyz of the problem are not looked at; mesh, attach, contact and targets are borrowed until
+ * solver_destroy; places, normals and stiffnesses of the targets may change between solves. blas_threads >= 1, see
+ * linear.h. The caller destroys *out. Refuses what equilibrium_solve refuses, but of the motions and parameters. */
 bool solver_create(const equilibrium_problem *problem, int blas_threads, solver **out, err *e) MUST_CHECK;
 void solver_destroy(solver **t);
 

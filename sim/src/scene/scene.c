@@ -119,7 +119,9 @@ bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, 
 {
     if (!check_params(scene, e)) return false;
     size_t n = (size_t)problem->mesh->vertex_count;
-    scene_report r = {.full = scene->full,
+    scene_params whole = *scene;
+    whole.full |= problem->targets != NULL; /* what they draw is not expected to stay */
+    scene_report r = {.full = whole.full,
                       .tolerance_mm = scene->tolerance_mm,
                       .nodes = problem->mesh->vertex_count,
                       .tets = problem->mesh->tet_count,
@@ -128,7 +130,7 @@ bool scene_solve(const equilibrium_problem *problem, const scene_params *scene, 
     if (!r.full) scene_estimate(problem->mesh, problem->attach, problem->motion, estimate);
     r.estimate_s = clock_s() - begin;
     equilibrium q = {0};
-    bool ok = solve_rounds(problem, scene, params, estimate, start, &r, &q, e);
+    bool ok = solve_rounds(problem, &whole, params, estimate, start, &r, &q, e);
     free(estimate);
     free(start);
     if (ok) {

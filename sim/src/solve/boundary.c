@@ -64,7 +64,12 @@ static void frame_about(const double n[3], double basis[9])
 
 bool boundary_make(const tetmesh *m, const attach_map *a, boundary *out, err *e)
 {
-    if (!check_map(m, a, e) || !restraint_check(m, a, e)) return false;
+    return boundary_make_drawn(m, a, NULL, out, e);
+}
+
+bool boundary_make_drawn(const tetmesh *m, const attach_map *a, const targets *t, boundary *out, err *e)
+{
+    if (!check_map(m, a, e) || !restraint_check(m, a, t, e)) return false;
     int32_t n = m->vertex_count;
     boundary b = {.node_count = n,
                   .unknown = NEW_ARRAY(int32_t, 3 * (size_t)n),

@@ -38,7 +38,7 @@ bool load_run(descent *d, const load_task *task, const double *x_start, solve_ou
 /* Residual of the reference: prescribed nodes moved, free ones carried by the guide only, nothing touches. It sees no
  * common rigid motion, so a turned head is held to the same tolerance. */
 double start_reference(descent *d);
-/* How far bones move from where the guide would carry them, mm. */
+/* How far bones move from where the guide would carry them, or targets draw the tissue at rest, mm. */
 double start_bones_move(const solver *t);
 /* Adds to z the linear response, about x_start, to carrying the prescribed nodes from x_start to here. *ok false: the
  * start or its end has no energy. */
@@ -67,6 +67,8 @@ bool step_take(descent *d, step_taken *s, bool *ok, err *e) MUST_CHECK;
 
 /* point.c */
 double point_dot(const double *a, const double *b, int64_t n);
+/* The force that rounding alone makes at x[3*nodes], mN. */
+double point_force_noise(const solver *t, const double *x);
 /* Energy at x, with contact where it is to count; fills p->force and p->g. */
 double point_evaluate(descent *d, bool touching, const double *x, point *p);
 /* The trial point becomes the present one, which becomes the trial point. */

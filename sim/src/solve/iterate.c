@@ -44,7 +44,7 @@ static bool is_solved(descent *d)
         l->tolerance_mn =
             fmax(fmax(l->asked_mn, contact_force_noise(c, d->here.x)), l->task.rel_tol * contact_force(c));
     if (c && d->residual > l->tolerance_mn && d->residual < near * l->tolerance_mn)
-        l->tolerance_mn = fmax(l->tolerance_mn, assembly_force_noise(&d->t->a, d->here.x));
+        l->tolerance_mn = fmax(l->tolerance_mn, point_force_noise(d->t, d->here.x));
     return d->residual <= l->tolerance_mn && !(l->last_step_mm > l->settled_mm);
 }
 
@@ -105,6 +105,7 @@ bool iterate(descent *d, int max_iterations, solve_outcome *outcome, err *e)
 {
     contact_watch watch = {0};
     d->load.energy_noise_uj = assembly_energy_noise(&d->t->a, d->here.x);
+    if (d->t->pull) d->load.energy_noise_uj += target_pull_energy_noise(d->t->pull, d->here.x);
     direct_measure_from(&d->direct, d->residual);
     for (int iteration = 1;; iteration++) {
         contact_verdict verdict = load_touching(&d->load) ? look_at_contact(d, iteration, &watch) : CONTACT_GO_ON;

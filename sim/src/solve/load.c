@@ -30,11 +30,11 @@ static void begin(descent *d, const load_task *task, const double *x_start)
 {
     solver *t = d->t;
     double reference = start_reference(d), moved = start_bones_move(t);
-    double floor = assembly_force_noise(&t->a, t->mesh->xyz);
+    double floor = point_force_noise(t, t->mesh->xyz);
     if (task->near) contact_follow(t->touch, t->attach, &t->b, x_start);
     boundary_project(&t->b, x_start, d->here.z);
     boundary_place(&t->b, d->here.z, d->here.x);
-    floor = fmax(floor, assembly_force_noise(&t->a, d->here.x));
+    floor = fmax(floor, point_force_noise(t, d->here.x));
     double asked = fmax(task->rel_tol * reference, floor);
     bool on_the_way = task->load < 1 || task->rel_tol * reference <= floor;
     d->out->reference_mn = reference;

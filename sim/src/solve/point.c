@@ -29,6 +29,12 @@ double point_dot(const double *a, const double *b, int64_t n)
     return sum;
 }
 
+double point_force_noise(const solver *t, const double *x)
+{
+    double elastic = assembly_force_noise(&t->a, x);
+    return t->pull ? hypot(elastic, target_pull_force_noise(t->pull, x)) : elastic;
+}
+
 void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out)
 {
     *d = (descent){.t = t,

@@ -88,7 +88,7 @@ static parts find_parts(const tetmesh *m)
 }
 
 /* [36*parts] of the held directions, in units of each part's reach about its centre. The caller frees. */
-static double *gather_rows(const tetmesh *m, const attach_map *a, const parts *p)
+static double *gather_rows(const tetmesh *m, const attach_map *a, const targets *t, const parts *p)
 {
     static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double *gram = NEW_ARRAY(double, 36 * (size_t)p->count);
@@ -100,6 +100,16 @@ static double *gather_rows(const tetmesh *m, const attach_map *a, const parts *p
         if (a->kind[v] == NODE_TIED)
             for (int c = 0; c < 3; c++) add_row(gram + 36 * part, axis[c], at);
         if (a->kind[v] == NODE_SLIDING) add_row(gram + 36 * part, a->normal + 3 * (size_t)v, at);
+    }
+    for (int32_t k = 0; t && k < t->count; k++) {
+        size_t part = (size_t)p->of[m->tet[4 * (size_t)t->tet[k]]];
+        double at[3];
+        if (!(t->stiffness[k] > 0)) continue;
+        targets_point(t, m, m->xyz, k, at);
+        vec_sub(at, p->centre + 3 * part, at);
+        vec_scale(at, 1 / p->reach[part], at);
+        add_row(gram + 36 * part, t->normal + 3 * (size_t)k, at);
+        for (int c = 0; t->across[k] > 0 && c < 3; c++) add_row(gram + 36 * part, axis[c], at);
     }
     return gram;
 }
@@ -114,20 +124,21 @@ static int count_free_moves(double gram[36])
     return count;
 }
 
-bool restraint_check(const tetmesh *m, const attach_map *a, err *e)
+bool restraint_check(const tetmesh *m, const attach_map *a, const targets *t, err *e)
 {
     if (!check_used(m, e)) return false;
     parts p = find_parts(m);
-    double *gram = gather_rows(m, a, &p);
+    double *gram = gather_rows(m, a, t, &p);
     bool ok = true;
     for (int32_t i = 0; ok && i < p.count; i++) {
         int free_moves = count_free_moves(gram + 36 * (size_t)i);
         const double *c = p.centre + 3 * (size_t)i;
         if (free_moves > 0)
             ok = err_set(e, ERR_GEOMETRY,
-                         "a part of the tissue is not held by bone: %d of its 6 rigid motions are free (%d of %d "
+                         "a part of the tissue is not held by bone%s: %d of its 6 rigid motions are free (%d of %d "
                          "nodes, about %.1f %.1f %.1f mm, radius %.1f mm, %d parts in all)",
-                         free_moves, p.size[i], m->vertex_count, c[0], c[1], c[2], p.reach[i], p.count);
+                         t ? " or targets" : "", free_moves, p.size[i], m->vertex_count, c[0], c[1], c[2], p.reach[i],
+                         p.count);
     }
     free(gram);
     parts_free(&p);

@@ -14,7 +14,7 @@ static bool make_contact(solver *t, const equilibrium_problem *problem, err *e)
 {
     boundary checked;
     double young = 0;
-    if (!boundary_make(problem->mesh, problem->attach, &checked, e)) return false;
+    if (!boundary_make_drawn(problem->mesh, problem->attach, problem->targets, &checked, e)) return false;
     boundary_free(&checked);
     for (int32_t i = 0; i < problem->material_count; i++) young = fmax(young, problem->materials[i].material.young_kpa);
     if (!contact_make(problem->mesh, problem->attach, problem->contact, young, &t->touch, e)) return false;
@@ -33,9 +33,10 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     t->mesh = problem->mesh;
     t->attach = problem->attach;
     t->blas_threads = blas_threads;
-    bool ok = elements_make(problem->mesh, problem->materials, problem->material_count, &el, e);
+    bool ok = (!problem->targets || targets_check(problem->targets, problem->mesh, e)) &&
+              elements_make(problem->mesh, problem->materials, problem->material_count, &el, e);
     if (ok && problem->contact) ok = make_contact(t, problem, e);
-    ok = ok && boundary_make(t->mesh, t->attach, &t->b, e) &&
+    ok = ok && boundary_make_drawn(t->mesh, t->attach, problem->targets, &t->b, e) &&
          assembly_make(t->mesh, &el, &t->b, t->touch ? t->touch->coupling : NULL,
                        t->touch ? t->touch->coupling_count : 0, &t->a, e);
     elements_free(&el);
@@ -45,6 +46,10 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
     }
     term_add(&t->terms, elastic_term(&t->a));
     if (t->touch) term_add(&t->terms, contact_term(t->touch));
+    if (problem->targets) {
+        t->pull = target_pull_make(problem->targets, problem->mesh, &t->a);
+        term_add(&t->terms, target_term(t->pull));
+    }
     t->prepare_s = clock_s() - begin;
     *out = t;
     return true;
@@ -69,6 +74,7 @@ void solver_destroy(solver **t)
     solver_forget_blocks(*t);
     node_blocks_free(&(*t)->f);
     linear_destroy(&(*t)->l);
+    target_pull_free(&(*t)->pull);
     contact_destroy(&(*t)->touch);
     attach_map_free(&(*t)->loosened);
     assembly_free(&(*t)->a);
@@ -173,6 +179,10 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
     descent_make(&d, t, params, &q);
     if (t->touch && t->goes_on) contact_resume(t->touch);
     if (t->touch && !t->goes_on) contact_restart(t->touch);
+    if (t->pull) { /* drawn to other places than before, perhaps: of the matrix only the preconditioner will do */
+        solver_forget_blocks(t);
+        t->factor_kept = t->factor_used = false;
+    }
     if (!start_xyz) solver_forget(t); /* what is solved from rest does not depend on plans before */
     load_path path =
         load_path_begin(start_xyz != NULL, t->touch && t->touch->setup.held, params->load_steps, params->max_halvings);

@@ -2,6 +2,7 @@
 #pragma once
 #include "sim/linear.h"
 #include "sim/solver.h"
+#include "sim/src/actuation/target_term.h"
 #include "sim/src/contact/contact_state.h"
 #include "sim/src/energy/term.h"
 #include "sim/src/linear/multigrid.h"
@@ -11,7 +12,8 @@ struct solver {
     const tetmesh *mesh;
     const attach_map *attach; /* the caller's, or with contact that is not held `loosened` */
     attach_map loosened;
-    contact *touch; /* NULL: no contact */
+    contact *touch;    /* NULL: no contact */
+    target_pull *pull; /* NULL: no targets */
     boundary b;
     assembly a;
     term_list terms;

@@ -43,7 +43,7 @@ double start_bones_move(const solver *t)
         rigid_apply(&t->b.guide, t->mesh->xyz + 3 * (size_t)v, carried);
         most = fmax(most, vec_distance(carried, t->b.origin + 3 * (size_t)v));
     }
-    return most;
+    return t->pull ? fmax(most, target_pull_longest(t->pull, t->mesh->xyz)) : most;
 }
 
 /* direction = response of the unknowns to the load trial.g, about x_start; *ok false: none. */
