@@ -177,6 +177,33 @@ static void a_refused_case_leaves_the_output_alone(void **state)
     assert_string_equal(c.name, "old");
 }
 
+static void a_bare_case_needs_no_landmarks_but_reads_all_else(void **state)
+{
+    (void)state;
+    static const char start[] = "{\"gnathos\": 1, \"surfaces\": {\"skin\": \"skin.ply\", \"skull\": \"skull.ply\", "
+                                "\"mandible\": \"mandible.ply\"}";
+    static const char *const absent[] = {"}", ", \"landmarks\": \"not_placed.mrk.json\"}"};
+    for (int i = 0; i < 2; i++) {
+        char text[256];
+        err e = {0}, strict = {0};
+        case_file c = {.name = "old"};
+        snprintf(text, sizeof text, "%s%s", start, absent[i]);
+        put("case.json", text);
+        assert_false(case_file_load(folder, &c, &strict));
+        assert_int_equal(strict.code, ERR_INPUT);
+        assert_non_null(strstr(strict.text, "`gnathos landmarks`"));
+        assert_ok(case_file_load_bare(folder, &c, &e));
+        assert_string_equal(c.landmarks, "");
+    }
+    err e = {0};
+    case_file c;
+    put("case.json", "{" NEEDED "}");
+    assert_ok(case_file_load_bare(folder, &c, &e));
+    assert_true(*c.landmarks);
+    put("case.json", "{\"gnathos\": 1, \"landmarks\": 3}");
+    assert_refused(case_file_load_bare(folder, &c, &e), ERR_INPUT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -187,6 +214,7 @@ int main(void)
         cmocka_unit_test(a_plane_of_ones_own_frees_its_segment),
         cmocka_unit_test(everything_wrong_is_named_by_line),
         cmocka_unit_test(a_refused_case_leaves_the_output_alone),
+        cmocka_unit_test(a_bare_case_needs_no_landmarks_but_reads_all_else),
     };
     return cmocka_run_group_tests(tests, make_folder, drop_folder);
 }

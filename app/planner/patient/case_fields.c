@@ -47,8 +47,9 @@ static const field rows[] = {
     {.name = "landmarks",
      .kind = FIELD_FILE,
      .offset = offsetof(case_file, landmarks),
-     .required = true,
-     .help = "Named points (.mrk.json or .fcsv of 3D Slicer); `gnathos help landmarks` lists the labels."},
+     .help =
+         "Named points (.mrk.json or .fcsv of 3D Slicer), needed by all but `gnathos landmarks`, which places them; "
+         "`gnathos help landmarks` lists the labels."},
     {.name = "planes",
      .kind = FIELD_FILE,
      .offset = offsetof(case_file, planes),

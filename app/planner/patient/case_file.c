@@ -1,9 +1,11 @@
 #include "app/planner/patient/case_file.h"
 #include "geometry/suggest.h"
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const char *const cut_names[] = {"le_fort_1", "bsso", "genioplasty"};
 static const char *const surface_names[] = {"skin", "skull", "mandible", "upper_teeth", "lower_teeth"};
@@ -192,7 +194,22 @@ static bool names_a_move(const json_t *o)
     return any;
 }
 
-bool case_file_read(const char *path, case_file *out, issue_list *issues)
+/* Takes landmarks that are not there out of the object; names them if they are needed. */
+static void leave_out_landmarks(const json_file *f, bool needed, const case_file *c, issue_list *issues)
+{
+    static const char hint[] = "`gnathos landmarks` places them on the surfaces";
+    const char *name = json_string_value(json_object_get(f->root, "landmarks"));
+    char path[2 * FIELD_PATH_SIZE];
+    if (name) snprintf(path, sizeof path, "%s/%s", *name == '/' ? "" : c->folder, name);
+    if (json_object_get(f->root, "landmarks") && !(name && *name && access(path, F_OK) && errno == ENOENT)) return;
+    if (needed && name)
+        fields_issue(f, "/landmarks", issues, "%s is not there; %s", name, hint);
+    else if (needed)
+        fields_issue(f, "/landmarks", issues, "is missing; must be the name of a file; %s", hint);
+    json_object_del(f->root, "landmarks");
+}
+
+static bool read_case(const char *path, bool needs_landmarks, case_file *out, issue_list *issues)
 {
     case_file *c = out;
     json_file f = {0};
@@ -213,6 +230,7 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues)
     } else if (!json_object_get(f.root, "surfaces") && json_object_get(f.root, "gnathos") && names_a_move(f.root)) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL, "is a plan, not a case; a case names its surfaces");
     } else {
+        leave_out_landmarks(&f, needs_landmarks, c, issues);
         fields_read(case_fields(), &f, f.root, "", c, issues);
         read_osteotomies(&f, c, issues);
         issue_sort_by_line(issues, from);
@@ -225,12 +243,18 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues)
     return issue_count(issues, ISSUE_ERROR) == errors;
 }
 
-bool case_file_load(const char *path, case_file *out, err *e)
+bool case_file_read(const char *path, case_file *out, issue_list *issues) { return read_case(path, true, out, issues); }
+
+static bool load(const char *path, bool needs_landmarks, case_file *out, err *e)
 {
     issue_list issues = {0};
     case_file c;
-    bool read = case_file_read(path, &c, &issues), ok = issue_none_is_error(&issues, e) && read;
+    bool read = read_case(path, needs_landmarks, &c, &issues), ok = issue_none_is_error(&issues, e) && read;
     if (ok) *out = c;
     issue_list_free(&issues);
     return ok;
 }
+
+bool case_file_load(const char *path, case_file *out, err *e) { return load(path, true, out, e); }
+
+bool case_file_load_bare(const char *path, case_file *out, err *e) { return load(path, false, out, e); }

@@ -43,8 +43,8 @@ typedef struct case_file {
     int version, units;
     int frame;                                         /* case_frame: axes of meshes without a tag */
     char surface[CASE_SURFACE_COUNT][FIELD_PATH_SIZE]; /* existing files, or "" */
-    char landmarks[FIELD_PATH_SIZE];
-    char planes[FIELD_PATH_SIZE]; /* user planes, or "" */
+    char landmarks[FIELD_PATH_SIZE];                   /* existing file; "" after case_file_load_bare alone */
+    char planes[FIELD_PATH_SIZE];                      /* user planes, or "" */
     int osteotomy_count;
     case_osteotomy osteotomy[CASE_OSTEOTOMIES_MAX];
     osteotomy_params cuts;
@@ -60,6 +60,8 @@ case_file case_file_default(void);
 bool case_file_read(const char *path, case_file *out, issue_list *issues) MUST_CHECK;
 /* The same for who wants only the first error; after one, *out is untouched. */
 bool case_file_load(const char *path, case_file *out, err *e) MUST_CHECK;
+/* The same for who needs no landmarks: where the case names none, or a file that is not there, its landmarks are "". */
+bool case_file_load_bare(const char *path, case_file *out, err *e) MUST_CHECK;
 
 bool case_file_cuts(const case_file *c, case_cut cut);
 /* The case has a cut that frees this segment. */
