@@ -1,6 +1,7 @@
 #include "tests/fuzz/readers.h"
 #include "app/planner/plan/plan_file.h"
 #include "app/planner/predict/outcome_read.h"
+#include "geometry/dicom_file.h"
 #include "geometry/mesh_file.h"
 #include "geometry/plane_file.h"
 #include "geometry/transform_file.h"
@@ -32,15 +33,27 @@ static void remove_folder(void)
         snprintf(path, sizeof path, "%s/%s", folder, readers[i].file);
         unlink(path);
     }
+    snprintf(path, sizeof path, "%s/slices/second.dcm", folder);
+    unlink(path);
+    snprintf(path, sizeof path, "%s/slices", folder);
+    rmdir(path);
     rmdir(folder);
 }
 
-static void link_beside(const char *name)
+static void link_as(const char *there, const char *name)
 {
-    char there[512], here[512];
-    snprintf(there, sizeof there, "%s/%s", FUZZ_BASE, name);
+    char here[512];
     snprintf(here, sizeof here, "%s/%s", folder, name);
     if (symlink(there, here)) abort();
+}
+
+/* A folder of slices, of which one is there. */
+static void make_slices(void)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/slices", folder);
+    if (mkdir(path, 0700)) abort();
+    link_as(FUZZ_SLICE, "slices/second.dcm");
 }
 
 void reader_prepare(void)
@@ -49,10 +62,11 @@ void reader_prepare(void)
     snprintf(folder, sizeof folder, "%s/gnathos-readers-XXXXXX", under && *under ? under : "/tmp");
     if (!mkdtemp(folder)) abort();
     atexit(remove_folder);
-    link_beside("skin.off");
-    link_beside("skull.off");
-    link_beside("mandible.off");
-    link_beside("landmarks.mrk.json");
+    link_as(FUZZ_BASE "/skin.off", "skin.off");
+    link_as(FUZZ_BASE "/skull.off", "skull.off");
+    link_as(FUZZ_BASE "/mandible.off", "mandible.off");
+    link_as(FUZZ_BASE "/landmarks.mrk.json", "landmarks.mrk.json");
+    make_slices();
     err e = {0};
     base = case_file_default();
     if (GNATHOS_WITH_CGAL && !case_file_load(FUZZ_BASE, &base, &e)) abort();
@@ -158,6 +172,18 @@ static bool read_volume(const char *path)
     return true;
 }
 
+static bool read_slice(const char *path)
+{
+    (void)path; /* beside the second one */
+    char slices[512];
+    err e = {0};
+    dicom_series s;
+    snprintf(slices, sizeof slices, "%s/slices", folder);
+    if (!dicom_check(slices, &s, &e)) return refused(&e);
+    assert(s.slices == 2 && isfinite(s.spacing_mm) && s.spacing_mm > 0);
+    return true;
+}
+
 static bool read_outcome(const char *path)
 {
     (void)path; /* outcome.json of the folder */
@@ -231,6 +257,7 @@ const reader readers[] = {
     {"nrrd", "volume.nrrd", read_volume, NULL},
     {"nifti", "volume.nii", read_volume, NULL},
     {"mha", "volume.mha", read_volume, NULL},
+    {"dicom", "slices/first.dcm", read_slice, NULL},
     {"outcome", "outcome.json", read_outcome, NULL},
 #if GNATHOS_WITH_CGAL
     {"pack", "prepared.pack", read_pack, NULL},

@@ -47,7 +47,7 @@ static void put_short(file *f, unsigned group, unsigned number, int value)
 typedef struct odd { /* what is unlike a sound series */
     const char *tilt, *syntax, *series;
     double shear_mm, gap_mm; /* per slice; before the last */
-    bool no_place;
+    bool no_place, one_place;
 } odd;
 
 /* Voxel (i, j) of slice k holds -1000 + i + 10 j + 100 k and lies at (-10 + 0.5 i, -20 + 0.5 j, 30 + 1.25 k). */
@@ -70,7 +70,7 @@ static void write_slice(const char *folder, int k, const odd *o)
     snprintf(text, sizeof text, "%d", k + 1);
     put_text(&f, 0x20, 0x13, "IS", text);
     snprintf(text, sizeof text, "-10\\%g\\%g", -20 + o->shear_mm * k,
-             30 + 1.25 * k + (k == SLICES - 1 ? o->gap_mm : 0));
+             30 + (o->one_place ? 0 : 1.25 * k) + (k == SLICES - 1 ? o->gap_mm : 0));
     if (!o->no_place || k) put_text(&f, 0x20, 0x32, "DS", text);
     put_text(&f, 0x20, 0x37, "DS", "1\\0\\0\\0\\1\\0");
     put_short(&f, 0x28, 2, 1);
@@ -121,6 +121,7 @@ static void what_would_be_read_wrong_is_refused(void **state)
                {{.shear_mm = 0.3}, "the slices are shifted against each other by 13.50 degrees"},
                {{.gap_mm = 1.25}, "some are missing, doubled or uneven"},
                {{.gap_mm = -1.25}, "some are missing, doubled or uneven"},
+               {{.one_place = true}, "all 5 slices lie at one place"},
                {{.series = "1.2.3.5"}, "holds more than one series"},
                {{.no_place = true}, "does not say where its slice lies"},
                {{.syntax = "1.2.840.10008.1.2.2"}, "is of an encoding that is not read"}};

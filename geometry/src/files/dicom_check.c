@@ -185,6 +185,11 @@ static bool check_slices(const char *folder, slice *s, int count, dicom_series *
     }
     qsort(s, (size_t)count, sizeof *s, compare_heights);
     double spacing = (s[count - 1].height - s[0].height) / (count - 1);
+    if (!(spacing > uneven_most_mm))
+        return err_at(e, ERR_INPUT, folder, 0, NULL,
+                      "all %d slices lie at one place (%s to %s): a CT goes on from "
+                      "slice to slice",
+                      count, s[0].name, s[count - 1].name);
     vec_sub(s[count - 1].place, s[0].place, way);
     double tilt = acos(fmax(-1, fmin(1, vec_dot(way, normal) / vec_norm(way)))) * 180 / M_PI;
     if (!(tilt <= tilt_most_deg))
