@@ -1,0 +1,184 @@
+#include "sim/registration.h"
+#include "geometry/clock.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include "sim/solver.h"
+#include "sim/src/identity/registration_springs.h"
+#include <stdlib.h>
+#include <string.h>
+
+static const double young_kpa = 1; /* only its ratio to the springs counts, which are in its measure */
+static const double settled_mm = 2e-3;
+enum { GIVE_MOST = 6 }; /* times that springs give way in one round */
+
+registration_params registration_params_default(void)
+{
+    return (registration_params){.poisson = 0.2,
+                                 .stages = 5,
+                                 .rounds = 4,
+                                 .soft_mm = 200,
+                                 .stiff_mm = 0.5,
+                                 .reach_first_mm = 25,
+                                 .reach_mm = 5,
+                                 .facing_cos = 0.5,
+                                 .across = 0.1,
+                                 .min_j = 0.1};
+}
+
+static bool check_params(const registration_params *p, err *e)
+{
+    if (p->stages < 1 || p->rounds < 1)
+        return err_set(e, ERR_INPUT, "a registration needs a stage and a round, got %d and %d", p->stages, p->rounds);
+    if (!(p->soft_mm > 0 && p->stiff_mm > 0))
+        return err_set(e, ERR_INPUT, "soft_mm and stiff_mm must be above 0, got %g and %g", p->soft_mm, p->stiff_mm);
+    if (!(p->reach_first_mm > 0 && p->reach_mm > 0))
+        return err_set(e, ERR_INPUT, "a reach must be above 0 mm, got %g and %g", p->reach_first_mm, p->reach_mm);
+    if (!(p->across > 0 && p->across <= 1))
+        return err_set(e, ERR_INPUT, "the share across must be above 0 and at most 1, got %g", p->across);
+    if (!(p->min_j >= 0 && p->min_j < 1))
+        return err_set(e, ERR_INPUT, "min_j must lie between 0 and 1, got %g", p->min_j);
+    return true;
+}
+
+typedef struct work {
+    const registration_params *params;
+    registration_springs springs;
+    solver *t;
+    double *x; /* [3*nodes] */
+    registration *out;
+} work;
+
+/* First value, then a constant factor from stage to stage to the last. */
+static double of_stage(const registration_params *p, int stage, double first, double last)
+{
+    return p->stages == 1 ? last : first * pow(last / first, stage / (p->stages - 1.0));
+}
+
+static bool step(work *w, equilibrium *q, err *e)
+{
+    rigid still[SEGMENT_COUNT];
+    for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
+    solve_params params = solve_params_default();
+    params.max_iterations = 1;
+    params.max_halvings = 0;
+    params.rel_tol = 1e-12;
+    params.predictor = PREDICT_RIGID;
+    params.linear = LINEAR_FACTOR;
+    if (!solver_solve(w->t, still, w->x, &params, q, e)) return false;
+    w->out->iterations += q->iterations;
+    w->out->factorisations += q->factorisations;
+    w->out->factor_s += q->factor_s;
+    if (q->outcome == SOLVED || q->outcome == STOPPED_MAX_ITERATIONS || q->outcome == STOPPED_LINE_SEARCH) return true;
+    err_set(e, ERR_NOT_CONVERGED, "the registration %s", solve_outcome_text(q->outcome));
+    equilibrium_free(q);
+    return false;
+}
+
+/* Springs are aimed, the body takes a step; where a tet would turn, springs there give way and it is taken again. */
+static bool run_round(work *w, const registration_round *round, double *moved, err *e)
+{
+    const tetmesh *body = w->springs.problem->body;
+    size_t n = 3 * (size_t)body->vertex_count;
+    w->out->rounds++;
+    for (int tries = 0;; tries++) {
+        equilibrium q;
+        registration_springs_aim(&w->springs, round, w->x);
+        if (!step(w, &q, e)) return false;
+        bool turns = registration_springs_give(&w->springs, q.xyz, w->params->min_j) > 0 && tries < GIVE_MOST;
+        if (!turns) {
+            *moved = 0;
+            for (size_t i = 0; i < n; i++) *moved = fmax(*moved, fabs(q.xyz[i] - w->x[i]));
+            if (registration_min_j(body, q.xyz, NULL) > 0 || registration_min_j(body, w->x, NULL) <= 0)
+                memcpy(w->x, q.xyz, n * sizeof *w->x);
+        }
+        equilibrium_free(&q);
+        if (!turns) return true;
+    }
+}
+
+static bool run_stages(work *w, err *e)
+{
+    const registration_params *p = w->params;
+    for (int stage = 0; stage < p->stages; stage++) {
+        registration_round round = {.stiffness_kpa_mm = young_kpa / of_stage(p, stage, p->soft_mm, p->stiff_mm),
+                                    .rules = {of_stage(p, stage, p->reach_first_mm, p->reach_mm), p->facing_cos},
+                                    .across = p->across};
+        double moved = HUGE_VAL;
+        for (int k = 0; k < p->rounds && moved > settled_mm; k++) {
+            if (p->interrupted && p->interrupted(p->context)) return err_set(e, ERR_INTERRUPTED, "interrupted");
+            if (!run_round(w, &round, &moved, e)) return false;
+        }
+        if (stage == p->stages - 1) registration_springs_aim(&w->springs, &round, w->x);
+    }
+    return true;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+static registration_gaps gaps_of(const registration_springs *s, int32_t part)
+{
+    double *gap = NEW_ARRAY(double, s->t.count);
+    registration_gaps g = {.vertices = s->problem->part[part].moving->vertex_count};
+    for (int32_t k = 0; k < s->t.count; k++) {
+        if (s->part[k] != part || !(s->gap_mm[k] < HUGE_VAL)) continue;
+        gap[g.with_target++] = s->gap_mm[k];
+        g.mean_mm += s->gap_mm[k];
+    }
+    qsort(gap, (size_t)g.with_target, sizeof *gap, by_size);
+    if (g.with_target) {
+        g.mean_mm /= g.with_target;
+        g.p95_mm = gap[(int64_t)(0.95 * (g.with_target - 1))];
+        g.max_mm = gap[g.with_target - 1];
+    }
+    free(gap);
+    return g;
+}
+
+static bool run(work *w, const registration_problem *problem, err *e)
+{
+    region_material table = {.region = REGION_ANY};
+    attach_map none = attach_map_new(problem->body->vertex_count, 0);
+    equilibrium_problem tissue = {
+        .mesh = problem->body, .attach = &none, .materials = &table, .material_count = 1, .targets = &w->springs.t};
+    bool ok = w->springs.t.count > 0 || err_set(e, ERR_GEOMETRY, "nothing that the body carries is to be drawn");
+    ok = ok && material_make(MATERIAL_SNH_LOG, young_kpa, w->params->poisson, &table.material, e) &&
+         solver_create(&tissue, 1, &w->t, e) && run_stages(w, e);
+    solver_destroy(&w->t);
+    attach_map_free(&none);
+    return ok;
+}
+
+bool registration_run(const registration_problem *problem, const registration_params *params, registration *out, err *e)
+{
+    double begin = clock_s();
+    if (!check_params(params, e)) return false;
+    registration r = {.gaps = NEW_ARRAY(registration_gaps, problem->part_count)};
+    work w = {.params = params,
+              .springs = registration_springs_make(problem),
+              .x = COPY_ARRAY(double, problem->start_xyz ? problem->start_xyz : problem->body->xyz,
+                              3 * (size_t)problem->body->vertex_count),
+              .out = &r};
+    bool ok = run(&w, problem, e);
+    r.xyz = w.x;
+    if (ok) {
+        for (int32_t i = 0; i < problem->part_count; i++) r.gaps[i] = gaps_of(&w.springs, i);
+        for (int32_t k = 0; k < w.springs.t.count; k++) r.given_way += w.springs.give[k] < 1;
+        r.min_j = registration_min_j(problem->body, r.xyz, &r.inverted_tets);
+        r.total_s = clock_s() - begin;
+        *out = r;
+    } else
+        registration_free(&r);
+    registration_springs_free(&w.springs);
+    return ok;
+}
+
+void registration_free(registration *r)
+{
+    free(r->xyz);
+    free(r->gaps);
+    *r = (registration){0};
+}

@@ -1,0 +1,110 @@
+#include "sim/target_surface.h"
+#include "geometry/distance_tree.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include <stdlib.h>
+
+struct target_surface {
+    distance_tree *tree;
+    surface s;
+    double *normal;  /* [3*vertices] */
+    uint8_t *border; /* [vertices] 1: on an edge that only one triangle has */
+    uint8_t *open;   /* [triangles] bit k: the edge opposite corner k is such a one */
+};
+
+typedef struct half_edge {
+    int32_t low, high, triangle, corner;
+} half_edge;
+
+static int by_ends(const void *a, const void *b)
+{
+    const half_edge *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    return (p->high > q->high) - (p->high < q->high);
+}
+
+static void mark_border(target_surface *t)
+{
+    size_t count = 3 * (size_t)t->s.triangle_count;
+    half_edge *edge = NEW_ARRAY(half_edge, count);
+    for (size_t i = 0; i < count; i++) {
+        size_t first = i / 3 * 3;
+        int32_t a = t->s.tri[first + (i + 1) % 3], b = t->s.tri[first + (i + 2) % 3];
+        edge[i] = (half_edge){a < b ? a : b, a < b ? b : a, (int32_t)(i / 3), (int32_t)(i % 3)};
+    }
+    qsort(edge, count, sizeof *edge, by_ends);
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && by_ends(&edge[i], &edge[end]) == 0; end++) {}
+        if (end > i + 1) continue;
+        t->open[edge[i].triangle] |= (uint8_t)(1 << edge[i].corner);
+        t->border[edge[i].low] = t->border[edge[i].high] = 1;
+    }
+    free(edge);
+}
+
+target_surface *target_surface_make(const surface *s)
+{
+    target_surface *t = NEW_ARRAY(target_surface, 1);
+    *t = (target_surface){.tree = distance_tree_make(s),
+                          .s = surface_copy(s),
+                          .normal = surface_vertex_normals(s),
+                          .border = NEW_ARRAY(uint8_t, s->vertex_count),
+                          .open = NEW_ARRAY(uint8_t, s->triangle_count)};
+    mark_border(t);
+    return t;
+}
+
+void target_surface_free(target_surface **t)
+{
+    if (!*t) return;
+    distance_tree_free(&(*t)->tree);
+    surface_free(&(*t)->s);
+    free((*t)->normal);
+    free((*t)->border);
+    free((*t)->open);
+    free(*t);
+    *t = NULL;
+}
+
+/* Of a point of the triangle. */
+static void corner_weights(const surface *s, const int32_t *v, const double p[3], double w[3])
+{
+    double e1[3], e2[3], d[3], n[3], c[3];
+    const double *a = s->xyz + 3 * (size_t)v[0];
+    vec_sub(s->xyz + 3 * (size_t)v[1], a, e1);
+    vec_sub(s->xyz + 3 * (size_t)v[2], a, e2);
+    vec_sub(p, a, d);
+    vec_cross(e1, e2, n);
+    double nn = vec_dot(n, n);
+    vec_cross(d, e2, c);
+    w[1] = nn > 0 ? vec_dot(c, n) / nn : 0;
+    vec_cross(e1, d, c);
+    w[2] = nn > 0 ? vec_dot(c, n) / nn : 0;
+    w[0] = 1 - w[1] - w[2];
+}
+
+/* Is the point with these weights on the open border? */
+static bool is_open(const target_surface *t, int32_t triangle, const int32_t *v, const double w[3])
+{
+    static const double on = 1e-6;
+    for (int k = 0; k < 3; k++)
+        if ((w[k] < on && t->open[triangle] >> k & 1) || (w[k] > 1 - on && t->border[v[k]])) return true;
+    return false;
+}
+
+double target_surface_ask(const target_surface *t, const double p[3], const double n[3], const target_rules *rules,
+                          target_point *out)
+{
+    distance_hit hit;
+    double d = distance_tree_between(t->tree, p, 0, rules->reach_mm, &hit), w[3];
+    if (!(d < rules->reach_mm)) return HUGE_VAL;
+    const int32_t *v = t->s.tri + 3 * (size_t)hit.triangle;
+    corner_weights(&t->s, v, hit.at, w);
+    if (is_open(t, hit.triangle, v, w)) return HUGE_VAL;
+    vec_scale(t->normal + 3 * (size_t)v[0], w[0], out->normal);
+    for (int k = 1; k < 3; k++) vec_axpy(out->normal, w[k], t->normal + 3 * (size_t)v[k], out->normal);
+    if (!(vec_normalize(out->normal) > 0) || (n && vec_dot(n, out->normal) < rules->facing_cos)) return HUGE_VAL;
+    vec_copy(hit.at, out->at);
+    out->triangle = hit.triangle;
+    return d;
+}
