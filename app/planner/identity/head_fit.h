@@ -34,4 +34,7 @@ typedef struct head_fit {
  * fails. The caller frees *out. */
 bool head_fit_make(const head_template *t, const head_scan *s, const head_fit_params *p, const task *watch,
                    head_fit *out, err *e) MUST_CHECK;
+/* The same from a place that is known. */
+bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_params *p, const head_place *place,
+                   const task *watch, head_fit *out, err *e) MUST_CHECK;
 void head_fit_free(head_fit *f);

@@ -8,8 +8,8 @@
 #include <string.h>
 
 static const double young_kpa = 1; /* only its ratio to the springs counts, which are in its measure */
-static const double settled_mm = 2e-3;
-enum { GIVE_MOST = 6 }; /* times that springs give way in one round */
+static const double settled_mm = 0.1, settled_last_mm = 2e-3; /* the longest move of a node in a round */
+enum { GIVE_MOST = 8, GIVE_STEPS = 4 };                       /* times that springs give way, Newton steps after each */
 
 registration_params registration_params_default(void)
 {
@@ -54,61 +54,57 @@ static double of_stage(const registration_params *p, int stage, double first, do
     return p->stages == 1 ? last : first * pow(last / first, stage / (p->stages - 1.0));
 }
 
-static bool step(work *w, equilibrium *q, err *e)
+/* Springs are aimed and the body goes so many Newton steps towards where they draw it. */
+static bool step(work *w, const registration_round *round, int iterations, double *moved, err *e)
 {
     rigid still[SEGMENT_COUNT];
-    for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
     solve_params params = solve_params_default();
-    params.max_iterations = 1;
+    equilibrium q;
+    for (int s = 0; s < SEGMENT_COUNT; s++) still[s] = rigid_identity();
+    params.max_iterations = iterations;
     params.max_halvings = 0;
     params.rel_tol = 1e-12;
     params.predictor = PREDICT_RIGID;
     params.linear = LINEAR_FACTOR;
-    if (!solver_solve(w->t, still, w->x, &params, q, e)) return false;
-    w->out->iterations += q->iterations;
-    w->out->factorisations += q->factorisations;
-    w->out->factor_s += q->factor_s;
-    if (q->outcome == SOLVED || q->outcome == STOPPED_MAX_ITERATIONS || q->outcome == STOPPED_LINE_SEARCH) return true;
-    err_set(e, ERR_NOT_CONVERGED, "the registration %s", solve_outcome_text(q->outcome));
-    equilibrium_free(q);
-    return false;
+    registration_springs_aim(&w->springs, round, w->x);
+    if (!solver_solve(w->t, still, w->x, &params, &q, e)) return false;
+    w->out->rounds++;
+    w->out->iterations += q.iterations;
+    w->out->factorisations += q.factorisations;
+    w->out->factor_s += q.factor_s;
+    *moved = 0;
+    for (size_t i = 0; i < 3 * (size_t)q.node_count; i++) *moved = fmax(*moved, fabs(q.xyz[i] - w->x[i]));
+    memcpy(w->x, q.xyz, 3 * (size_t)q.node_count * sizeof *w->x);
+    solve_outcome outcome = q.outcome;
+    equilibrium_free(&q);
+    return outcome == SOLVED || outcome == STOPPED_MAX_ITERATIONS || outcome == STOPPED_LINE_SEARCH ||
+           err_set(e, ERR_NOT_CONVERGED, "the registration %s", solve_outcome_text(outcome));
 }
 
-/* Springs are aimed, the body takes a step; where a tet would turn, springs there give way and it is taken again. */
-static bool run_round(work *w, const registration_round *round, double *moved, err *e)
+/* Springs about tets that are too small give way until there are none. */
+static bool give_way(work *w, const registration_round *round, err *e)
 {
-    const tetmesh *body = w->springs.problem->body;
-    size_t n = 3 * (size_t)body->vertex_count;
-    w->out->rounds++;
-    for (int tries = 0;; tries++) {
-        equilibrium q;
-        registration_springs_aim(&w->springs, round, w->x);
-        if (!step(w, &q, e)) return false;
-        bool turns = registration_springs_give(&w->springs, q.xyz, w->params->min_j) > 0 && tries < GIVE_MOST;
-        if (!turns) {
-            *moved = 0;
-            for (size_t i = 0; i < n; i++) *moved = fmax(*moved, fabs(q.xyz[i] - w->x[i]));
-            if (registration_min_j(body, q.xyz, NULL) > 0 || registration_min_j(body, w->x, NULL) <= 0)
-                memcpy(w->x, q.xyz, n * sizeof *w->x);
-        }
-        equilibrium_free(&q);
-        if (!turns) return true;
-    }
+    double moved;
+    for (int k = 0; k < GIVE_MOST && registration_springs_give(&w->springs, w->x, w->params->min_j); k++)
+        if (!step(w, round, GIVE_STEPS, &moved, e)) return false;
+    return true;
 }
 
 static bool run_stages(work *w, err *e)
 {
     const registration_params *p = w->params;
     for (int stage = 0; stage < p->stages; stage++) {
+        bool last = stage == p->stages - 1;
         registration_round round = {.stiffness_kpa_mm = young_kpa / of_stage(p, stage, p->soft_mm, p->stiff_mm),
                                     .rules = {of_stage(p, stage, p->reach_first_mm, p->reach_mm), p->facing_cos},
                                     .across = p->across};
         double moved = HUGE_VAL;
-        for (int k = 0; k < p->rounds && moved > settled_mm; k++) {
+        for (int k = 0; k < p->rounds && moved > (last ? settled_last_mm : settled_mm); k++) {
             if (p->interrupted && p->interrupted(p->context)) return err_set(e, ERR_INTERRUPTED, "interrupted");
-            if (!run_round(w, &round, &moved, e)) return false;
+            if (!step(w, &round, 1, &moved, e)) return false;
         }
-        if (stage == p->stages - 1) registration_springs_aim(&w->springs, &round, w->x);
+        if (last && !give_way(w, &round, e)) return false;
+        if (last) registration_springs_aim(&w->springs, &round, w->x);
     }
     return true;
 }

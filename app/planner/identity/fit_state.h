@@ -1,0 +1,25 @@
+/* fit_state: a fit under way. */
+#pragma once
+#include "app/planner/identity/fit_lattice.h"
+#include "app/planner/identity/head_fit.h"
+
+typedef struct fit_state {
+    const head_template *t;
+    const head_fit_params *params;
+    const task *watch;
+    target_surface *target[CASE_SURFACE_COUNT]; /* NULL: the patient has none */
+    surface at[CASE_SURFACE_COUNT];             /* the template's parts where they are now */
+    surface placed[CASE_SURFACE_COUNT];         /* and before they were bent */
+    double *nodes, *placed_nodes;               /* [3*nodes] of the tissue at neutral, the same two */
+    fit_cost cost;
+} fit_state;
+
+/* fit_bones.c: bends all as one, then each bone on its own, and lets the teeth follow. */
+bool fit_bend(fit_state *f, err *e) MUST_CHECK;
+bool fit_bones(fit_state *f, err *e) MUST_CHECK;
+/* fit_tissue.c: the tissue between the bones where they are now and the patient's skin, then the skin: what hangs in
+ * the tissue goes with it, the rest through a lattice. */
+bool fit_tissue(fit_state *f, err *e) MUST_CHECK;
+bool fit_skin(fit_state *f, err *e) MUST_CHECK;
+/* rest[3*nodes]: what the template's tissue does from neutral to rest, turned and stretched as the tissue there is. */
+void fit_rest(const fit_state *f, double *rest);

@@ -1,0 +1,168 @@
+#include "app/planner/identity/head_fit.h"
+#include "app/planner/identity/fit_state.h"
+#include "geometry/clock.h"
+#include "geometry/mem.h"
+#include "geometry/vec.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* What of the patient a vertex of the fitted template is measured against. */
+static const target_rules measured = {10, 0.5};
+
+head_fit_params head_fit_params_default(void)
+{
+    return (head_fit_params){.tissue_young_kpa = 15, .poisson = 0.3, .use_landmarks = true};
+}
+
+void head_fit_free(head_fit *f)
+{
+    head_shape_free(&f->shape);
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+        free(f->gap_mm[p]);
+        free(f->guessed[p]);
+    }
+    *f = (head_fit){0};
+}
+
+static fit_state begin(const head_template *t, const head_scan *s, const head_fit_params *params, const task *watch,
+                       const head_place *place)
+{
+    fit_state f = {.t = t, .params = params, .watch = watch, .cost = {.min_j = HUGE_VAL}};
+    size_t n = 3 * (size_t)t->tissue.mesh.vertex_count;
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+        if (s->part[p].triangle_count) f.target[p] = target_surface_make(&s->part[p]);
+        f.placed[p] = surface_copy(&t->part[p]);
+        head_place_apply(place, t->part[p].xyz, t->part[p].vertex_count, f.placed[p].xyz);
+        f.at[p] = surface_copy(&f.placed[p]);
+    }
+    f.placed_nodes = NEW_ARRAY(double, n);
+    head_place_apply(place, t->tissue.mesh.xyz, t->tissue.mesh.vertex_count, f.placed_nodes);
+    f.nodes = COPY_ARRAY(double, f.placed_nodes, n);
+    return f;
+}
+
+static void end(fit_state *f)
+{
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+        target_surface_free(&f->target[p]);
+        surface_free(&f->at[p]);
+        surface_free(&f->placed[p]);
+    }
+    free(f->nodes);
+    free(f->placed_nodes);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+static void measure_part(const fit_state *f, case_surface p, head_fit *out)
+{
+    const surface *s = &f->at[p];
+    size_t n = (size_t)s->vertex_count;
+    double *gap = NEW_ARRAY(double, n), *normal = surface_vertex_normals(s);
+    head_gaps g = {.vertices = s->vertex_count};
+    out->gap_mm[p] = NEW_ARRAY(double, n);
+    out->guessed[p] = NEW_ARRAY(uint8_t, n);
+    for (size_t v = 0; v < n; v++) {
+        target_point hit;
+        double d = HUGE_VAL;
+        if (f->target[p]) d = target_surface_ask(f->target[p], s->xyz + 3 * v, normal + 3 * v, &measured, &hit);
+        out->guessed[p][v] = d == HUGE_VAL;
+        out->gap_mm[p][v] = d == HUGE_VAL ? (double)NAN : d;
+        if (d == HUGE_VAL) continue;
+        gap[g.with_target++] = d;
+        g.mean_mm += d;
+    }
+    if (g.with_target) {
+        qsort(gap, (size_t)g.with_target, sizeof *gap, by_size);
+        g.mean_mm /= g.with_target;
+        g.p95_mm = gap[(int32_t)(0.95 * (g.with_target - 1))];
+        g.max_mm = gap[g.with_target - 1];
+    }
+    out->gaps[p] = g;
+    free(gap);
+    free(normal);
+}
+
+/* Of the tissue at rest and at neutral against the template, the place's size taken out. */
+static void measure_tets(const fit_state *f, head_fit *out)
+{
+    const tetmesh *m = &f->t->tissue.mesh;
+    double size = pow(out->place.scale, 3);
+    const double *pairs[2][2] = {{f->t->rest, out->shape.rest}, {m->xyz, out->shape.neutral}};
+    out->min_j = HUGE_VAL;
+    for (int k = 0; k < 2; k++)
+        for (size_t t = 0; t < (size_t)m->tet_count; t++) {
+            const double *p[2][4];
+            for (int i = 0; i < 2; i++)
+                for (size_t c = 0; c < 4; c++) p[i][c] = pairs[k][i] + 3 * (size_t)m->tet[4 * t + c];
+            double before = vec_six_volume(p[0][0], p[0][1], p[0][2], p[0][3]),
+                   after = vec_six_volume(p[1][0], p[1][1], p[1][2], p[1][3]);
+            out->min_j = fmin(out->min_j, after / before / size);
+            out->inverted_tets += !(after > 0);
+        }
+}
+
+static void finish(fit_state *f, head_fit *out)
+{
+    size_t n = 3 * (size_t)f->t->tissue.mesh.vertex_count;
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+        out->shape.part[p] = COPY_ARRAY(double, f->at[p].xyz, 3 * (size_t)f->at[p].vertex_count);
+        measure_part(f, (case_surface)p, out);
+    }
+    out->shape.neutral = COPY_ARRAY(double, f->nodes, n);
+    out->shape.rest = NEW_ARRAY(double, n);
+    fit_rest(f, out->shape.rest);
+    measure_tets(f, out);
+    out->iterations = f->cost.iterations;
+    out->factorisations = f->cost.factorisations;
+}
+
+bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_params *p, const head_place *place,
+                   const task *watch, head_fit *out, err *e)
+{
+    double start = clock_s();
+    head_fit fit = {.place = *place};
+    fit_state f = begin(t, s, p, watch, place);
+    task_progress(watch, "bending the whole", 0.1);
+    bool ok = fit_bend(&f, e);
+    task_progress(watch, "bones and teeth", 0.4);
+    ok = ok && fit_bones(&f, e);
+    fit.bones_s = clock_s() - start;
+    task_progress(watch, "tissue", 0.6);
+    ok = ok && fit_tissue(&f, e);
+    task_progress(watch, "skin", 0.8);
+    ok = ok && fit_skin(&f, e);
+    if (ok) {
+        fit.total_s = clock_s() - start;
+        fit.tissue_s = fit.total_s - fit.bones_s;
+        finish(&f, &fit);
+        if (fit.inverted_tets)
+            ok = err_set(e, ERR_NOT_CONVERGED, "the fit turns %d tets of the tissue inside out", fit.inverted_tets);
+    }
+    end(&f);
+    if (ok)
+        *out = fit;
+    else
+        head_fit_free(&fit);
+    return ok;
+}
+
+bool head_fit_make(const head_template *t, const head_scan *s, const head_fit_params *p, const task *watch,
+                   head_fit *out, err *e)
+{
+    head_place place;
+    head_scan bare = *s;
+    double begin = clock_s();
+    if (!p->use_landmarks) bare.points = (landmarks){0};
+    task_progress(watch, "place", 0);
+    if (!head_place_find(t, &bare, watch, &place, NULL, e)) return false;
+    double placed = clock_s() - begin;
+    if (!head_fit_from(t, s, p, &place, watch, out, e)) return false;
+    out->place_s = placed;
+    out->total_s += placed;
+    return true;
+}
