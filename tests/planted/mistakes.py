@@ -86,6 +86,33 @@ def rename(a, b):
     return plant
 
 
+def toothless(all_teeth=False, points=True):
+    """A jaw without incisors, or without any tooth: their landmarks and surfaces go, those of the alveolar process come,
+    each on the bone a crown's length from where the edge was."""
+    crest = {"U1": "Pr", "L1": "Id"}
+    crest |= {f"{jaw}6_{side}": f"{jaw}6_crest_{side}" for jaw in "UL" for side in "LR"} if all_teeth else {}
+
+    def plant(h):
+        for tooth, label in crest.items():
+            part, away = ("skull", 10) if tooth[0] == "U" else ("mandible", -9)
+            xyz = h.mesh[part][0]
+            near = np.linalg.norm(xyz - h.point[tooth] - (0, 0, away), axis=1)
+            if points:
+                h.point[label] = xyz[near.argmin()].copy()
+        for label in (t for t in h.point if t.startswith("L7") and all_teeth):
+            xyz = h.mesh["mandible"][0]
+            h.point[label] = xyz[np.linalg.norm(xyz - h.point[label], axis=1).argmin()].copy()
+        for label in [t for t in h.point if t in crest or t in ("U1_apex", "L1_apex") or (all_teeth and t[:2] in ("U3", "L3"))]:
+            del h.point[label]
+        for part in ("upper_teeth", "lower_teeth"):
+            if all_teeth:
+                h.drop(part)
+            else:
+                xyz, tri = h.mesh[part]
+                h.set_mesh(part, xyz, tri[(abs(xyz[tri][:, :, 0]) > 9).any(axis=1)])
+    return plant
+
+
 def linear(which, m, with_points=False, shift=(0, 0, 0)):
     """All corners of the parts by a matrix and a shift, mm; det < 0 mirrors without turning the triangles."""
     m = np.asarray(m, float) if np.ndim(m) else float(m) * np.eye(3)

@@ -72,6 +72,14 @@ row("a label in small letters", rename("Me", "me"), "Me", "missing")
 row("porions missing", lose("Po_L", "Po_R"), "Po_L", "missing")
 warn("two labels on one point", place("ZB_L", "IOF_L"), "ZB_L", "lies on IOF_L")
 
+group = "teeth missing"
+row("U1 missing", lose("U1"), "U1", "is missing", "Pr would do as well")
+row("L1 and the lower first molars missing", lose("L1", "L6_L", "L6_R"), "L1", "is missing", "Id would do as well")
+warn("incisors missing, Pr and Id in their place", toothless(), "U1", "estimated from Pr", "overjet, overbite", "not judged", quick=True)
+warn("no tooth at all, points of the crest", toothless(True), "L6_R", "estimated from L6_crest_R", "no root", quick=True)
+row("no tooth at all, no other points", toothless(True, points=False), "U6_L, U6_R", "are missing", "U6_crest_L would do as well")
+row("Pr and Id exchanged", after(toothless(), swap("Pr", "Id")), "Pr", "upper jaw, where it belongs")
+
 group = "wrong surfaces"
 row("the skin's file as skull", become("skull", "skin"), "one surface for two parts, skin and skull")
 row("the mandible's file as skull", become("skull", "mandible"), "one surface for two parts, skull and mandible")

@@ -36,17 +36,19 @@ static void judge_overjet(const judge *j, const plan_moves *m, double overjet, j
 
 static void judge_incisors(const judge *j, const plan_moves *m, judgement *out)
 {
-    static const char *const apart = "the scan shows the jaws apart, so that the plan's bite is not known";
+    static const char *const apart = "the scan shows the jaws apart, so that the plan's bite is not known",
+                             *const missing = "needs U1 and L1: alveolar points tell no overjet, overbite or midline";
     double u1[3], l1[3];
-    bool there = planned(j, m, "U1", u1) && planned(j, m, "L1", l1) && !j->jaws_apart;
+    bool teeth = planned(j, m, "U1", u1) && planned(j, m, "L1", l1), there = teeth && !j->jaws_apart;
+    const char *why = there ? NULL : teeth ? apart : missing;
     double overlap = there ? l1[UP] - u1[UP] : (double)NAN;
     if (there)
         judge_overjet(j, m, l1[BACK] - u1[BACK], out);
     else
-        add(j, out, LIMIT_OVERJET, (double)NAN, apart);
-    add(j, out, LIMIT_OVERBITE, overlap, there ? NULL : apart);
-    add(j, out, LIMIT_OPEN_BITE, there ? fmax(-overlap, 0) : overlap, there ? NULL : apart);
-    add(j, out, LIMIT_DENTAL_MIDLINE, there ? l1[ACROSS] - u1[ACROSS] : (double)NAN, there ? NULL : apart);
+        add(j, out, LIMIT_OVERJET, (double)NAN, why);
+    add(j, out, LIMIT_OVERBITE, overlap, why);
+    add(j, out, LIMIT_OPEN_BITE, there ? fmax(-overlap, 0) : overlap, why);
+    add(j, out, LIMIT_DENTAL_MIDLINE, there ? l1[ACROSS] - u1[ACROSS] : (double)NAN, why);
 }
 
 /* The cant of the bite, by the same tooth of both sides: the first molars, the next that are there, or the canines. */

@@ -33,6 +33,7 @@ static void find_bite(judge *j)
     for (int side = 1; side >= -1; side -= 2) {
         molar upper, lower;
         if (!molar_find(l, true, side, &upper) || !molar_find(l, false, side, &lower)) continue;
+        if (upper.on_crest || lower.on_crest) continue; /* no tooth there that could meet another */
         vec_sub(upper.xyz, lower.xyz, d);
         sum += vec_dot(d, j->prepared->frame.up);
         count++;

@@ -1,5 +1,6 @@
 /* What the moves alone decide: envelopes, the condyles' seat, the room for the airway. */
 #include "app/planner/judge/parts.h"
+#include "geometry/incisor.h"
 #include "geometry/vec.h"
 
 /* How far the bite goes back: the lower incisors, less what the upper ones go forwards. The airway's front wall hangs
@@ -8,12 +9,12 @@ static void judge_airway(const judge *j, const plan_moves *m, judgement *out)
 {
     static const char *const note = "from the moves: the scan's airway itself is not measured";
     double to[3], back[2] = {0};
-    static const char *const label[2] = {"U1", "L1"};
     for (int k = 0; k < 2; k++) {
-        const landmark *from = landmarks_find(&j->prepared->points, label[k]);
+        const landmarks *l = &j->prepared->points;
+        incisor front;
         double d[3];
-        if (!from || !judge_landmark(j, m, label[k], to)) continue; /* both are required landmarks */
-        vec_sub(to, from->xyz, d);
+        if (!incisor_find(l, !k, &front) || !judge_landmark(j, m, front.by, to)) continue; /* required landmarks */
+        vec_sub(to, landmarks_find(l, front.by)->xyz, d);
         back[k] = vec_dot(d, j->prepared->frame.posterior);
     }
     double worse = fmax(back[1] + fmin(back[0], 0), back[0]);
@@ -23,7 +24,6 @@ static void judge_airway(const judge *j, const plan_moves *m, judgement *out)
 void judge_moves(const judge *j, const plan_moves *m, judgement *out)
 {
     static const segment_id moved[] = {SEGMENT_MAXILLA, SEGMENT_DISTAL, SEGMENT_CHIN, SEGMENT_PROXIMAL_LEFT};
-    static const char *const point[] = {"U1", "L1", "Pog", "Co_L"};
     for (int l = 0; l < LIMIT_MOVE_COUNT; l++) {
         int group = l / 4; /* four measures each; the condyles' two come last */
         const char *where = "";
@@ -37,7 +37,8 @@ void judge_moves(const judge *j, const plan_moves *m, judgement *out)
                                    registered ? "from a matrix, taken for a registration's: cautions at most" : NULL);
         f->estimated = false;
         f->segment_a = moved[group];
-        f->has_place = judge_landmark(j, m, point[group], f->place);
+        const landmark *at = plan_moves_reference(&j->prepared->points, moved[group]);
+        f->has_place = at && judge_landmark(j, m, at->label, f->place);
     }
     judge_airway(j, m, out);
 }

@@ -1,6 +1,7 @@
 /* Crowns against crowns. In most cases the teeth are one surface with their jaw, so that the crowns are what lies
  * within a crown's height of the plane through the cusps, in front of the last molar. */
 #include "app/planner/judge/parts.h"
+#include "geometry/incisor.h"
 #include "geometry/mem.h"
 #include "geometry/molar.h"
 #include "geometry/vec.h"
@@ -10,19 +11,21 @@ static const double crown_mm = 7, beyond_mm = 5;         /* of the cusps' plane,
 static const double behind_u6_mm = 18, behind_l7_mm = 3; /* mesiobuccal cusp of the first molar to the arch's end */
 static const double touch_mm = 0.3, sight_mm = 10, bite_spacing_mm = 0.8, apart_mm = 5;
 
-/* The plane of the cusps (up: towards the upper teeth) and how far back the arch goes. */
+/* The plane of the cusps (up: towards the upper teeth) and how far back the arch goes. False without any tooth. */
 static bool cusp_plane(const prepared *p, bool upper, double at[3], double up[3], double *end)
 {
     const landmarks *l = &p->points;
-    const landmark *front = landmarks_find(l, upper ? "U1" : "L1");
+    incisor front;
     molar first[2];
-    if (!front || !molar_find(l, upper, 1, &first[0]) || !molar_find(l, upper, -1, &first[1])) return false;
+    if (!incisor_find(l, upper, &front) || !molar_find(l, upper, 1, &first[0]) || !molar_find(l, upper, -1, &first[1]))
+        return false;
+    if (front.stands_in && first[0].on_crest && first[1].on_crest) return false;
     double back[3], across[3], local[3];
-    for (int c = 0; c < 3; c++) back[c] = (first[0].xyz[c] + first[1].xyz[c]) / 2 - front->xyz[c];
+    for (int c = 0; c < 3; c++) back[c] = (first[0].xyz[c] + first[1].xyz[c]) / 2 - front.xyz[c];
     vec_sub(first[0].xyz, first[1].xyz, across);
     vec_cross(across, back, up);
     if (!(vec_normalize(up) > 0)) return false;
-    vec_copy(front->xyz, at);
+    vec_copy(front.xyz, at);
     *end = -HUGE_VAL;
     for (int k = 0; k < 2; k++) {
         const landmark *last = upper ? NULL : landmarks_find(l, k ? "L7_R" : "L7_L");
@@ -39,8 +42,10 @@ uint8_t *judge_crowns(const prepared *p, segment_id bone, const char **why)
     const surface *s = &p->segments.part[bone];
     double at[3], up[3], end;
     if (!cusp_plane(p, upper, at, up, &end)) {
-        *why = upper ? "the upper crowns are not known: needs U1 and, on both sides, U6 or the next tooth"
-                     : "the lower crowns are not known: needs L1 and, on both sides, L6 or the next tooth";
+        *why =
+            upper
+                ? "the upper crowns are not known, or there are none: needs U1 and, on both sides, U6 or the next tooth"
+                : "the lower crowns are not known, or there are none: needs L1 and, on both sides, L6 or the next tooth";
         return NULL;
     }
     uint8_t *kind = NEW_ARRAY(uint8_t, s->triangle_count);

@@ -1,6 +1,7 @@
 #include "app/planner/patient/check.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
+#include "geometry/incisor.h"
 #include "geometry/mem.h"
 #include "geometry/molar.h"
 #include <stdlib.h>
@@ -22,9 +23,17 @@ static bool all_there(const landmarks *l, const char *words)
     return there;
 }
 
-/* A first molar that is missing, where the next tooth tells its place. */
-static void check_molars(const case_file *c, const landmarks *l, issue_list *issues)
+/* Teeth that are missing, where others or the crest tell their places. */
+static void check_missing_teeth(const case_file *c, const landmarks *l, issue_list *issues)
 {
+    for (int upper = 1; upper >= 0; upper--) {
+        incisor edge;
+        if (incisor_find(l, upper, &edge) && edge.stands_in)
+            issue_add(issues, ISSUE_WARNING, ERR_INPUT, c->landmarks, 0, upper ? "U1" : "L1",
+                      "is missing: its place is estimated from %s; no root is looked for there, and overjet, "
+                      "overbite%s and the dental midline are not judged",
+                      edge.by, upper ? ", incisor show, the bite's inclination" : "");
+    }
     for (int i = 0; i < landmark_row_count; i++) {
         const landmark_row *r = &landmark_rows[i];
         molar m;
@@ -63,7 +72,7 @@ static void check_set(const case_file *c, const landmarks *l, issue_list *issues
             issue_add(issues, ISSUE_INFO, ERR_NONE, c->landmarks, 0, both, "is missing (%s); lost: %s", r->help,
                       r->lost);
     }
-    check_molars(c, l, issues);
+    check_missing_teeth(c, l, issues);
     char unknown[600] = "";
     int count = 0;
     for (int32_t i = 0; i < l->count; i++) {

@@ -7,14 +7,15 @@
 
 /* Where a segment's move is measured, and about what it turns where the plan names no pivot: the first that
  * is there. */
-static const char *const reference_labels[SEGMENT_COUNT][3] = {
-    [SEGMENT_MAXILLA] = {"U1", "ANS", "A"}, [SEGMENT_DISTAL] = {"L1", "B", "Pog"}, [SEGMENT_PROXIMAL_LEFT] = {"Co_L"},
-    [SEGMENT_PROXIMAL_RIGHT] = {"Co_R"},    [SEGMENT_CHIN] = {"Pog", "Me", "Gn"},
+static const char *const reference_labels[SEGMENT_COUNT][4] = {
+    [SEGMENT_MAXILLA] = {"U1", "Pr", "ANS", "A"}, [SEGMENT_DISTAL] = {"L1", "Id", "B", "Pog"},
+    [SEGMENT_PROXIMAL_LEFT] = {"Co_L"},           [SEGMENT_PROXIMAL_RIGHT] = {"Co_R"},
+    [SEGMENT_CHIN] = {"Pog", "Me", "Gn"},
 };
 
 const landmark *plan_moves_reference(const landmarks *l, segment_id s)
 {
-    for (int i = 0; i < 3 && reference_labels[s][i]; i++) {
+    for (int i = 0; i < 4 && reference_labels[s][i]; i++) {
         const landmark *p = landmarks_find(l, reference_labels[s][i]);
         if (p) return p;
     }

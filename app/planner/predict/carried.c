@@ -99,6 +99,8 @@ int soft_ratios(const prepared *p, const carried_landmarks *c, soft_ratio out[SO
     int count = 0;
     for (int i = 0; i < SOFT_RATIOS_MAX; i++) {
         soft_ratio r = {.soft = pair[i][0], .hard = pair[i][1]};
+        if (!strcmp(r.hard, "U1") && !landmarks_find(&p->points, "U1")) r.hard = "Pr"; /* the jaw has lost it */
+        if (!strcmp(r.hard, "L1") && !landmarks_find(&p->points, "L1")) r.hard = "Id";
         if (!move_of(p, c, r.soft, r.soft_mm) || !move_of(p, c, r.hard, r.hard_mm)) continue;
         r.ratio = fabs(r.hard_mm[0]) >= 1 ? r.soft_mm[0] / r.hard_mm[0] : (double)NAN;
         out[count++] = r;

@@ -7,6 +7,9 @@ static const struct {
     const char *label;
     segment_id want;
 } places[] = {{"U1", SEGMENT_MAXILLA},
+              {"Pr", SEGMENT_MAXILLA},
+              {"U6_crest_L", SEGMENT_MAXILLA},
+              {"U6_crest_R", SEGMENT_MAXILLA},
               {"U3_L", SEGMENT_MAXILLA},
               {"U3_R", SEGMENT_MAXILLA},
               {"U6_L", SEGMENT_MAXILLA},
@@ -22,6 +25,9 @@ static const struct {
               {"IOF_L", SEGMENT_CRANIUM},
               {"IOF_R", SEGMENT_CRANIUM},
               {"L1", SEGMENT_DISTAL},
+              {"Id", SEGMENT_DISTAL},
+              {"L6_crest_L", SEGMENT_DISTAL},
+              {"L6_crest_R", SEGMENT_DISTAL},
               {"L3_L", SEGMENT_DISTAL},
               {"L3_R", SEGMENT_DISTAL},
               {"L6_L", SEGMENT_DISTAL},

@@ -1,4 +1,5 @@
 #include "geometry/src/cut/cut_plan.h"
+#include "geometry/incisor.h"
 #include "geometry/mem.h"
 #include "geometry/molar.h"
 #include "geometry/vec.h"
@@ -27,11 +28,15 @@ bool landmark_point(const landmarks *l, const char *label, double out[3])
 {
     const landmark *p = landmarks_find(l, label);
     molar m;
+    incisor edge;
+    bool front = !strcmp(label, "U1") || !strcmp(label, "L1");
     bool first_molar = !strncmp(label, "U6_", 3) || !strncmp(label, "L6_", 3);
     if (p)
         vec_copy(p->xyz, out);
     else if (first_molar && strlen(label) == 4 && molar_find(l, label[0] == 'U', label[3] == 'L' ? 1 : -1, &m))
         vec_copy(m.xyz, out);
+    else if (front && incisor_find(l, label[0] == 'U', &edge))
+        vec_copy(edge.xyz, out);
     else
         return false;
     return true;
@@ -68,10 +73,10 @@ bool jaw_frame(const landmarks *l, head_frame *out, err *e)
 {
     static const char *const needed[] = {"L1", "L6_L", "L6_R", NULL}, *const pairs[] = {"L6", "Go", "RA", "RP", "Co"};
     if (!need_landmarks(l, "the frame of the mandible", needed, e)) return false;
-    const double *front = landmarks_find(l, "L1")->xyz;
     head_frame f = {0};
-    double middle[3], back[3], across[3], left[3], right[3];
-    (void)(landmark_point(l, "L6_L", left) && landmark_point(l, "L6_R", right)); /* needed above */
+    double front[3], middle[3], back[3], across[3], left[3], right[3];
+    (void)(landmark_point(l, "L1", front) && landmark_point(l, "L6_L", left) &&
+           landmark_point(l, "L6_R", right)); /* needed above */
     for (int c = 0; c < 3; c++) middle[c] = (left[c] + right[c]) / 2;
     vec_sub(middle, front, back);
     vec_sub(left, right, across);

@@ -37,7 +37,7 @@ bool cut_places_check(const osteotomy_input *in, const segments *s, cut_report *
 bool jaw_frame(const landmarks *l, head_frame *out, err *e);
 /* Adds the names of labels that are missing to e (one refusal for all of them); true if none is. */
 bool need_landmarks(const landmarks *l, const char *what, const char *const *labels, err *e);
-/* A landmark; of a missing first molar (U6, L6) where it would be. False if there is none. */
+/* A landmark; of missing incisors (U1, L1) and first molars (U6, L6) where they would be. False if there is none. */
 bool landmark_point(const landmarks *l, const char *label, double out[3]);
 /* The same in local coordinates. */
 bool landmark_local(const landmarks *l, const char *label, const head_frame *f, double local[3]);

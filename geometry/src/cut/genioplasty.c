@@ -63,14 +63,17 @@ static int guards(const osteotomy_input *in, const osteotomy_params *p, const he
             report_warning(r, "%s is missing: the chin cut is not checked against the %s canine", label, word);
         }
     }
-    guard_point *g = out + count++;
+    guard_point *g = out + count;
     *g = (guard_point){.name = "lower incisor apex", .below = p->apex_clearance_mm, .root = true};
-    if (!landmark_local(in->points, "L1_apex", f, g->local)) {
-        landmark_local(in->points, "L1", f, g->local);
-        g->local[2] -= LOWER_1_MM;
-        g->estimated = true;
+    if (landmark_local(in->points, "L1_apex", f, g->local)) return count + 1;
+    if (!landmarks_find(in->points, "L1")) {
+        report_warning(r, "L1 is missing: the chin cut is not checked against the roots of the incisors");
+        return count;
     }
-    return count;
+    landmark_local(in->points, "L1", f, g->local);
+    g->local[2] -= LOWER_1_MM;
+    g->estimated = true;
+    return count + 1;
 }
 
 /* Highest plane of this slope that respects every guard, roots by apex_mm. */

@@ -79,8 +79,7 @@ int osteotomy_canal(const surface *mandible, const landmarks *points, const oste
     char label[6][LANDMARK_LABEL_SIZE];
     const char *needed[7];
     jaw_side_needs(side, label, needed);
-    for (int k = 0; k < 6; k++)
-        if (!landmarks_find(points, needed[k])) return 0;
+    if (!need_landmarks(points, "", needed, &e)) return 0;
     if (!nearest_create(mandible, &tree, &e)) return 0;
     if (jaw_side_open(&in, tree, side, &j, &e) && jaw_side_locate(&j, p, &ignored, &e)) estimate(&j, &ignored);
     for (int i = 0; i < j.canal_count; i++) jaw_side_world(&j, j.canal[i], xyz + 3 * (size_t)i);

@@ -109,12 +109,12 @@ typedef struct root_axes { /* unit, from cusp to root tip */
  * incisor. */
 static root_axes find_axes(const landmarks *l, const head_frame *f, cut_report *r)
 {
-    const double *u1 = landmarks_find(l, "U1")->xyz;
-    molar left, right;
-    (void)(molar_find(l, true, 1, &left) && molar_find(l, true, -1, &right)); /* le_fort_bodies asked for them */
     const landmark *apex = landmarks_find(l, "U1_apex");
+    molar left, right;
     root_axes a;
-    double across[3], back[3];
+    double u1[3], across[3], back[3];
+    (void)(landmark_point(l, "U1", u1) && molar_find(l, true, 1, &left) &&
+           molar_find(l, true, -1, &right)); /* le_fort_bodies asked for them */
     vec_sub(left.xyz, right.xyz, across);
     for (int c = 0; c < 3; c++) back[c] = (left.xyz[c] + right.xyz[c]) / 2 - u1[c];
     vec_cross(across, back, a.molar);
@@ -123,8 +123,9 @@ static root_axes find_axes(const landmarks *l, const head_frame *f, cut_report *
         vec_sub(apex->xyz, u1, a.incisor);
     else { /* 111 degrees to the Frankfort plane */
         for (int c = 0; c < 3; c++) a.incisor[c] = 0.934 * f->up[c] + 0.358 * f->posterior[c];
-        report_warning(r, "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
-                       UPPER_1_MM);
+        if (landmarks_find(l, "U1"))
+            report_warning(r, "U1_apex is missing: the upper incisors are taken to stand at 111 degrees, %d mm long",
+                           UPPER_1_MM);
     }
     vec_normalize(a.incisor);
     vec_add(a.incisor, a.molar, a.canine);
@@ -158,16 +159,17 @@ static int root_probes(const landmarks *l, const head_frame *f, const root_axes 
         else
             vec_axpy(cusp->xyz, teeth[k].mm, k == 0 ? axes->canine : axes->molar, p->at);
     }
-    probe *p = out + count++; /* the second molar follows the first along the arch */
+    const landmark *second = landmarks_find(l, side_label(label, "U7", side));
+    molar first;
+    (void)molar_find(l, true, side, &first);
+    if (first.on_crest) return count; /* no molar on this side */
+    probe *p = out + count++;         /* the second molar follows the first along the arch */
     *p = (probe){.below = true, .estimated = true};
     snprintf(p->name, sizeof p->name, "upper second molar apex %s", word);
     double step[3];
     for (int c = 0; c < 3; c++) step[c] = f->posterior[c] + 0.15 * side * f->left[c];
     vec_axpy(step, -vec_dot(step, axes->molar), axes->molar, step);
     vec_normalize(step);
-    const landmark *second = landmarks_find(l, side_label(label, "U7", side));
-    molar first;
-    (void)molar_find(l, true, side, &first);
     if (second)
         vec_copy(second->xyz, p->at);
     else
@@ -178,14 +180,16 @@ static int root_probes(const landmarks *l, const head_frame *f, const root_axes 
 
 static int probes(const landmarks *l, const head_frame *f, probe out[16], cut_report *r)
 {
-    const landmark *apex = landmarks_find(l, "U1_apex");
+    const landmark *apex = landmarks_find(l, "U1_apex"), *edge = landmarks_find(l, "U1");
     root_axes axes = find_axes(l, f, r);
     int count = 0;
     out[count] = (probe){.name = "upper incisor apex", .below = true, .estimated = true, .decides = true};
     if (apex)
         vec_copy(apex->xyz, out[count++].at);
+    else if (edge)
+        vec_axpy(edge->xyz, UPPER_1_MM, axes.incisor, out[count++].at);
     else
-        vec_axpy(landmarks_find(l, "U1")->xyz, UPPER_1_MM, axes.incisor, out[count++].at);
+        report_warning(r, "U1 is missing: the cut is not checked against the roots of the incisors");
     for (int side = 1; side >= -1; side -= 2) {
         char label[LANDMARK_LABEL_SIZE];
         count += root_probes(l, f, &axes, side, out + count, r);

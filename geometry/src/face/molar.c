@@ -1,4 +1,6 @@
 #include "geometry/molar.h"
+#include "geometry/incisor.h"
+#include "geometry/src/face/crown.h"
 #include "geometry/vec.h"
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +12,7 @@ static const struct neighbour {
     char tooth;
     double forward_mm[2]; /* lower, upper */
 } neighbours[] = {{'6', {0, 0}}, {'7', {0, 10}}, {'5', {-6, -6}}, {'4', {-13, -13}}};
+static const double crown_mm = 7.5; /* of first molars, upper and lower (the same) */
 enum { NEIGHBOURS = sizeof neighbours / sizeof *neighbours };
 
 static const landmark *tooth_at(const landmarks *l, bool upper, char tooth, int side)
@@ -19,10 +22,21 @@ static const landmark *tooth_at(const landmarks *l, bool upper, char tooth, int 
     return landmarks_find(l, label);
 }
 
+static bool over_crest(const landmarks *l, bool upper, int side, molar *out)
+{
+    char label[LANDMARK_LABEL_SIZE];
+    snprintf(label, sizeof label, "%c6_crest_%c", upper ? 'U' : 'L', side > 0 ? 'L' : 'R');
+    const landmark *crest = landmarks_find(l, label);
+    *out = (molar){.stands_in = true, .on_crest = true};
+    strcpy(out->by, label);
+    return crest && crown_over(l, crest->xyz, upper, crown_mm, out->xyz);
+}
+
 bool molar_find(const landmarks *l, bool upper, int side, molar *out)
 {
-    const landmark *front = tooth_at(l, upper, '3', side);
-    if (!front) front = landmarks_find(l, upper ? "U1" : "L1");
+    const landmark *canine = tooth_at(l, upper, '3', side);
+    incisor edge;
+    const double *front = canine ? canine->xyz : incisor_find(l, upper, &edge) ? edge.xyz : NULL;
     for (int i = 0; i < NEIGHBOURS; i++) {
         const landmark *at = tooth_at(l, upper, neighbours[i].tooth, side);
         double forward[3] = {0};
@@ -30,14 +44,14 @@ bool molar_find(const landmarks *l, bool upper, int side, molar *out)
         *out = (molar){.stands_in = i > 0};
         strcpy(out->by, at->label);
         if (i) {
-            vec_sub(front->xyz, at->xyz, forward);
+            vec_sub(front, at->xyz, forward);
             vec_normalize(forward);
         }
         vec_copy(at->xyz, out->xyz);
         vec_axpy(out->xyz, neighbours[i].forward_mm[upper], forward, out->xyz);
         return true;
     }
-    return false;
+    return over_crest(l, upper, side, out);
 }
 
 bool molar_pair(const landmarks *l, bool upper, const landmark *out[2])

@@ -1,7 +1,8 @@
 #include "geometry/lip_rest.h"
+#include "geometry/incisor.h"
 #include "geometry/mem.h"
-#include "geometry/nearest.h"
 #include "geometry/molar.h"
+#include "geometry/nearest.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -18,11 +19,12 @@ typedef struct front {
 
 static bool find_front(const landmarks *l, const head_frame *f, double depth_mm, front *out)
 {
-    const landmark *incisor = landmarks_find(l, "L1");
+    incisor edge;
     molar left, right;
     double a[3], b[3], c[3];
-    if (!incisor || !molar_find(l, false, 1, &left) || !molar_find(l, false, -1, &right)) return false;
-    head_frame_to_local(f, incisor->xyz, a);
+    if (!incisor_find(l, false, &edge) || !molar_find(l, false, 1, &left) || !molar_find(l, false, -1, &right))
+        return false;
+    head_frame_to_local(f, edge.xyz, a);
     head_frame_to_local(f, left.xyz, b);
     head_frame_to_local(f, right.xyz, c);
     *out = (front){.back = (b[1] + c[1]) / 2, .top = a[2], .bottom = a[2] - depth_mm};

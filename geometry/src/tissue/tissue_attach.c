@@ -1,7 +1,8 @@
 #include "geometry/src/tissue/tissue_attach.h"
+#include "geometry/incisor.h"
 #include "geometry/mem.h"
-#include "geometry/nearest.h"
 #include "geometry/molar.h"
+#include "geometry/nearest.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -20,15 +21,16 @@ static bool is_upper_jaw(int segment) { return segment == SEGMENT_CRANIUM || seg
 static vestibule find_vestibule(const landmarks *l, const head_frame *f, bool upper, double depth_mm)
 {
     vestibule z = {.depth_mm = depth_mm};
-    const landmark *incisor = landmarks_find(l, upper ? "U1" : "L1");
+    incisor front;
     molar left, right;
-    if (!incisor || !molar_find(l, upper, 1, &left) || !molar_find(l, upper, -1, &right)) return z;
+    if (!incisor_find(l, upper, &front) || !molar_find(l, upper, 1, &left) || !molar_find(l, upper, -1, &right))
+        return z;
     double middle[3], across[3], along[3];
     for (int c = 0; c < 3; c++) middle[c] = (left.xyz[c] + right.xyz[c]) / 2;
-    vec_copy(incisor->xyz, z.edge);
+    vec_copy(front.xyz, z.edge);
     vec_sub(left.xyz, right.xyz, across);
-    vec_sub(middle, incisor->xyz, along); /* backwards */
-    vec_cross(across, along, z.away);     /* left x posterior = up */
+    vec_sub(middle, front.xyz, along); /* backwards */
+    vec_cross(across, along, z.away);  /* left x posterior = up */
     vec_normalize(z.away);
     if ((vec_dot(z.away, f->up) > 0) != upper) vec_scale(z.away, -1, z.away);
     vec_scale(along, -1 / vec_norm(along), z.front);
