@@ -52,6 +52,7 @@ const verb_row verbs[] = {
     {"compare", "compare a prediction with an actual face", WITH_CGAL(verb_compare)},
     {"ceph", "measure the profile of a case or an outcome", &verb_ceph, NULL},
     {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(verb_audit)},
+    {"template", "the head in whose numbering all heads are described", WITH_SIM(verb_template)},
     {"study", "error against run time of a case", WITH_SIM(verb_study)},
     {"stress", "stiff materials and extreme moves", WITH_SOLVER(verb_stress)},
     {"serve", "plan in a browser", NOT_BUILT},

@@ -14,6 +14,7 @@
 #include "app/planner/bounds/audit_record.h"
 #include "app/planner/predict/outcome_record.h"
 #include "app/study/record.h"
+#include "app/cli/template_record.h"
 #endif
 #if GNATHOS_WITH_SIM
 #include "app/stress/record.h"
@@ -31,7 +32,7 @@ static const record_table *const all[] = {
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
     &outcome_table,      &audit_table,           &study_record_table,
-    &study_ratios_table, &study_folder_table,
+    &study_ratios_table, &study_folder_table,    &template_record_table,
 #endif
 #if GNATHOS_WITH_SIM
     &stress_table,

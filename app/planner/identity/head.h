@@ -18,6 +18,7 @@ typedef struct head_point {
 
 typedef struct head_template {
     int32_t version;                    /* of the numbering: never the same number for another one */
+    char numbering[HASH_TEXT_SIZE];     /* hash of every whole number below: what hangs together with what */
     char hash[HASH_TEXT_SIZE];          /* of everything below */
     surface part[CASE_SURFACE_COUNT];   /* skin, skull, mandible, teeth, at neutral; closed, outward */
     int32_t *tooth[CASE_SURFACE_COUNT]; /* [vertex_count] number of its tooth from 0; NULL for what are no teeth */

@@ -1,7 +1,7 @@
 #include "app/planner/patient/prepared.h"
+#include "app/planner/patient/pack_arrays.h"
 #include "app/planner/patient/prepared_report.h"
 #include "app/planner/patient/prepared_sound.h"
-#include "app/planner/store/pack_file.h"
 #include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
@@ -40,57 +40,6 @@ bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
     return ok;
 }
 
-/* ---- to and from the file: every array under its name ---- */
-
-/* As many elements as a count may say; NULL for more. */
-static void *take(const pack_file *f, const char *name, size_t element, int32_t *count)
-{
-    size_t n = 0;
-    void *array = pack_take(f, name, element, &n);
-    if (array && n > INT32_MAX / 4) {
-        free(array);
-        return NULL;
-    }
-    *count = (int32_t)n;
-    return array;
-}
-
-/* The text of an entry, NULL where it does not end. */
-static char *take_text(const pack_file *f, const char *name)
-{
-    size_t n = 0;
-    char *text = pack_take(f, name, 1, &n);
-    if (text && (!n || text[n - 1])) {
-        free(text);
-        return NULL;
-    }
-    return text;
-}
-
-static void put_surface(pack_file *f, const char *name, const surface *s)
-{
-    char key[PACK_NAME_SIZE];
-    snprintf(key, sizeof key, "%.24s.xyz", name);
-    pack_put(f, key, s->xyz, 3 * (size_t)s->vertex_count * sizeof *s->xyz);
-    snprintf(key, sizeof key, "%.24s.tri", name);
-    pack_put(f, key, s->tri, 3 * (size_t)s->triangle_count * sizeof *s->tri);
-    snprintf(key, sizeof key, "%.24s.rgb", name);
-    if (s->rgb) pack_put(f, key, s->rgb, 3 * (size_t)s->vertex_count);
-}
-
-static bool take_surface(const pack_file *f, const char *name, surface *s)
-{
-    char key[PACK_NAME_SIZE];
-    int32_t colours = 0;
-    snprintf(key, sizeof key, "%.24s.xyz", name);
-    s->xyz = take(f, key, 3 * sizeof *s->xyz, &s->vertex_count);
-    snprintf(key, sizeof key, "%.24s.tri", name);
-    s->tri = take(f, key, 3 * sizeof *s->tri, &s->triangle_count);
-    snprintf(key, sizeof key, "%.24s.rgb", name);
-    s->rgb = take(f, key, 3, &colours);
-    return s->xyz && s->tri && (!s->rgb || colours == s->vertex_count);
-}
-
 static void part_key(int segment, char key[PACK_NAME_SIZE])
 {
     snprintf(key, PACK_NAME_SIZE, "part.%s", segment_name((segment_id)segment));
@@ -98,84 +47,45 @@ static void part_key(int segment, char key[PACK_NAME_SIZE])
 
 static void fill_pack(const prepared *p, const char hash[HASH_TEXT_SIZE], pack_file *f)
 {
-    const tissue *t = &p->tissue;
-    size_t nodes = (size_t)t->mesh.vertex_count, tets = (size_t)t->mesh.tet_count, pairs = (size_t)t->attach.pair_count,
-           points = (size_t)p->skin_on_tissue.point_count;
     char key[PACK_NAME_SIZE], *report = json_dumps(p->report, JSON_COMPACT | JSON_REAL_PRECISION(17));
     pack_put(f, "hash", hash, strlen(hash) + 1);
     pack_put(f, "landmarks", p->points.point, (size_t)p->points.count * sizeof *p->points.point);
     pack_put(f, "frame", &p->frame, sizeof p->frame);
-    put_surface(f, "skin", &p->skin);
+    pack_put_surface(f, "skin", &p->skin);
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         part_key(s, key);
-        put_surface(f, key, &p->segments.part[s]);
+        pack_put_surface(f, key, &p->segments.part[s]);
     }
-    put_surface(f, "kerf", &p->segments.kerf);
-    pack_put(f, "node.xyz", t->mesh.xyz, 3 * nodes * sizeof(double));
-    pack_put(f, "tet.node", t->mesh.tet, 4 * tets * sizeof(int32_t));
-    pack_put(f, "tet.region", t->mesh.region, tets * sizeof(int32_t));
-    pack_put(f, "node.side", t->side, nodes);
-    pack_put(f, "node.kind", t->attach.kind, nodes);
-    pack_put(f, "node.segment", t->attach.segment, nodes * sizeof(int32_t));
-    pack_put(f, "node.normal", t->attach.normal, 3 * nodes * sizeof(double));
-    pack_put(f, "pair.node", t->attach.pair, 2 * pairs * sizeof(int32_t));
-    pack_put(f, "pair.normal", t->attach.pair_normal, 3 * pairs * sizeof(double));
-    pack_put(f, "lips", &t->lips, sizeof t->lips);
-    pack_put(f, "skin.tet", p->skin_on_tissue.tet, points * sizeof(int32_t));
-    pack_put(f, "skin.weight", p->skin_on_tissue.weight, 4 * points * sizeof(double));
+    pack_put_surface(f, "kerf", &p->segments.kerf);
+    pack_put_tissue(f, &p->tissue);
+    pack_put_skin(f, &p->skin_on_tissue);
     pack_put(f, "report", report, strlen(report) + 1);
     free(report);
 }
 
-static bool take_tissue(const pack_file *f, tissue *t)
-{
-    int32_t n[7] = {0};
-    attach_map *a = &t->attach;
-    t->mesh.xyz = take(f, "node.xyz", 3 * sizeof(double), &t->mesh.vertex_count);
-    t->mesh.tet = take(f, "tet.node", 4 * sizeof(int32_t), &t->mesh.tet_count);
-    t->mesh.region = take(f, "tet.region", sizeof(int32_t), &n[0]);
-    t->side = take(f, "node.side", 1, &n[1]);
-    a->kind = take(f, "node.kind", 1, &n[2]);
-    a->segment = take(f, "node.segment", sizeof(int32_t), &n[3]);
-    a->normal = take(f, "node.normal", 3 * sizeof(double), &n[4]);
-    a->pair = take(f, "pair.node", 2 * sizeof(int32_t), &a->pair_count);
-    a->pair_normal = take(f, "pair.normal", 3 * sizeof(double), &n[5]);
-    lip_sheet *lips = take(f, "lips", sizeof *lips, &n[6]);
-    bool ok = lips && n[6] == 1;
-    if (ok) t->lips = *lips;
-    free(lips);
-    a->node_count = t->mesh.vertex_count;
-    for (int i = 1; i < 5; i++) ok = ok && n[i] == a->node_count;
-    return ok && t->mesh.xyz && t->mesh.tet && t->mesh.region && t->side && a->kind && a->segment && a->normal &&
-           a->pair && a->pair_normal && n[0] == t->mesh.tet_count && n[5] == a->pair_count;
-}
-
 static bool take_pack(const pack_file *f, const char hash[HASH_TEXT_SIZE], prepared *p)
 {
-    int32_t one = 0, weights = 0;
-    char key[PACK_NAME_SIZE], *whose = take_text(f, "hash"), *report = take_text(f, "report");
+    int32_t one = 0;
+    char key[PACK_NAME_SIZE], *whose = pack_text(f, "hash"), *report = pack_text(f, "report");
     bool ok = whose && !strcmp(whose, hash);
-    p->points.point = take(f, "landmarks", sizeof *p->points.point, &p->points.count);
-    head_frame *frame = take(f, "frame", sizeof *frame, &one);
+    p->points.point = pack_take_array(f, "landmarks", sizeof *p->points.point, &p->points.count);
+    head_frame *frame = pack_take_array(f, "frame", sizeof *frame, &one);
     ok = ok && frame && one == 1;
     if (ok) p->frame = *frame;
-    ok = ok && p->points.point && take_surface(f, "skin", &p->skin) && take_surface(f, "kerf", &p->segments.kerf) &&
-         take_tissue(f, &p->tissue);
+    ok = ok && p->points.point && pack_take_surface(f, "skin", &p->skin) &&
+         pack_take_surface(f, "kerf", &p->segments.kerf) && pack_take_tissue(f, &p->tissue);
     for (int s = 0; s < SEGMENT_COUNT; s++) {
         part_key(s, key);
-        ok = ok && take_surface(f, key, &p->segments.part[s]);
+        ok = ok && pack_take_surface(f, key, &p->segments.part[s]);
     }
-    p->skin_on_tissue.tet = take(f, "skin.tet", sizeof(int32_t), &p->skin_on_tissue.point_count);
-    p->skin_on_tissue.weight = take(f, "skin.weight", 4 * sizeof(double), &weights);
     if (report) p->report = json_loads(report, 0, NULL);
     free(report);
     free(frame);
     free(whose);
-    return ok && p->skin_on_tissue.tet && p->skin_on_tissue.weight && weights == p->skin_on_tissue.point_count &&
-           p->report && prepared_is_sound(p);
+    return ok && pack_take_skin(f, &p->skin_on_tissue) && p->report && prepared_is_sound(p);
 }
 
-static bool make(const case_file *c, const task *watch, prepared *out, err *e)
+bool prepared_make(const case_file *c, const task *watch, prepared *out, err *e)
 {
     prepared p = {0};
     anatomy a = {0};
@@ -235,7 +145,7 @@ static bool make_and_keep(const case_file *c, const char *folder, const char *pa
         return err_at(e, ERR_RESOURCE, folder, 0, NULL,
                       "cannot be made (%s); --cache names another folder for what is prepared once", strerror(errno));
     bool ok = whole_file_open(path, &file, e);
-    if (ok && !make(c, watch, p, e)) {
+    if (ok && !prepared_make(c, watch, p, e)) {
         whole_file_abandon(&file);
         ok = false;
     } else if (ok) {

@@ -21,6 +21,8 @@ typedef struct prepared {
 /* Takes it from CASE/prepared (or `cache` if not NULL) where a file of the right hash lies there, else makes
  * it and keeps it. A damaged file is made anew. The caller frees *out. */
 bool prepared_get(const case_file *c, const char *cache, const task *watch, prepared *out, err *e) MUST_CHECK;
+/* The same, kept nowhere and without its hash. */
+bool prepared_make(const case_file *c, const task *watch, prepared *out, err *e) MUST_CHECK;
 /* The hash of everything it depends on. */
 bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e) MUST_CHECK;
 void prepared_free(prepared *p);

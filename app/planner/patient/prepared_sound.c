@@ -2,21 +2,21 @@
 #include <math.h>
 #include <string.h>
 
-static bool all_finite(const double *x, int64_t count)
+bool all_finite(const double *x, int64_t count)
 {
     for (int64_t i = 0; i < count; i++)
         if (!isfinite(x[i])) return false;
     return true;
 }
 
-static bool all_within(const int32_t *n, int64_t count, int32_t low, int32_t end)
+bool all_within(const int32_t *n, int64_t count, int32_t low, int32_t end)
 {
     for (int64_t i = 0; i < count; i++)
         if (n[i] < low || n[i] >= end) return false;
     return true;
 }
 
-static bool surface_is_sound(const surface *s)
+bool surface_is_sound(const surface *s)
 {
     return all_finite(s->xyz, 3 * (int64_t)s->vertex_count) &&
            all_within(s->tri, 3 * (int64_t)s->triangle_count, 0, s->vertex_count);
@@ -51,7 +51,7 @@ static bool attachment_is_sound(const attach_map *a, const segments *bones)
     for (int32_t i = 0; i < a->node_count; i++) {
         int32_t s = a->segment[i];
         if (a->kind[i] > NODE_SLIDING || s < -1 || s >= SEGMENT_COUNT) return false;
-        if (a->kind[i] != NODE_FREE && (s < 0 || !bones->part[s].vertex_count)) return false;
+        if (a->kind[i] != NODE_FREE && (s < 0 || (bones && !bones->part[s].vertex_count))) return false;
     }
     for (int32_t i = 0; i < a->pair_count; i++)
         if (a->pair[2 * (size_t)i] == a->pair[2 * (size_t)i + 1]) return false;
@@ -60,7 +60,7 @@ static bool attachment_is_sound(const attach_map *a, const segments *bones)
            all_finite(a->pair_normal, 3 * (int64_t)a->pair_count);
 }
 
-static bool tissue_is_sound(const tissue *t, const segments *bones)
+bool tissue_is_sound(const tissue *t, const segments *bones)
 {
     err ignored = {0};
     if (!tetmesh_check(&t->mesh, &ignored) || t->attach.node_count != t->mesh.vertex_count) return false;
@@ -71,14 +71,19 @@ static bool tissue_is_sound(const tissue *t, const segments *bones)
            all_finite(t->lips.z, 3);
 }
 
+bool embedding_is_sound(const embedding *m, int32_t points, int32_t tets)
+{
+    return m->point_count == points && all_within(m->tet, points, -1, tets) &&
+           all_finite(m->weight, 4 * (int64_t)points);
+}
+
 bool prepared_is_sound(const prepared *p)
 {
     for (int s = 0; s < SEGMENT_COUNT; s++)
         if (!surface_is_sound(&p->segments.part[s])) return false;
-    const embedding *skin = &p->skin_on_tissue;
     return points_are_sound(&p->points) && frame_is_sound(&p->frame) && p->skin.triangle_count &&
            surface_is_sound(&p->skin) && surface_is_sound(&p->segments.kerf) &&
-           tissue_is_sound(&p->tissue, &p->segments) && skin->point_count == p->skin.vertex_count &&
-           all_within(skin->tet, skin->point_count, -1, p->tissue.mesh.tet_count) &&
-           all_finite(skin->weight, 4 * (int64_t)skin->point_count) && json_is_object(p->report);
+           tissue_is_sound(&p->tissue, &p->segments) &&
+           embedding_is_sound(&p->skin_on_tissue, p->skin.vertex_count, p->tissue.mesh.tet_count) &&
+           json_is_object(p->report);
 }
