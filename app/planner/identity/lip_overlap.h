@@ -3,7 +3,8 @@
 #pragma once
 #include "geometry/tissue.h"
 
-extern const double lip_overlap_mm; /* between the middles of the lips; none at the corners of the mouth */
+extern const double lip_overlap_mm; /* between the middles of the lips in front; falls to none at the corners of
+                                       the mouth and as far behind */
 
 /* rest[3*nodes]: the facing nodes of the lips each moved by half the overlap into the other lip, free along the lips,
  * and the tissue in elastic equilibrium around them with all bones where they are. Refuses (ERR_NOT_CONVERGED) where
