@@ -44,12 +44,6 @@ similarity similarity_fit(const double *from, const double *to, const double *we
     return s;
 }
 
-void similarity_apply(const similarity *s, const double x[3], double out[3])
-{
-    vec_scale(x, s->scale, out);
-    rigid_apply(&s->motion, out, out);
-}
-
 /* A tooth's vertices: as in the template, and where they are. */
 typedef struct crown {
     int32_t count, *vertex;

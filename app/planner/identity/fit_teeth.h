@@ -1,17 +1,12 @@
 /* fit_teeth: each tooth turned, shifted and made larger or smaller as a whole. */
 #pragma once
+#include "geometry/similarity.h"
 #include "geometry/surface.h"
 #include "sim/target_surface.h"
 
 /* The least squares of xyz -> to over points with weight > 0: x' = scale R x + shift. Fewer than three of them, or all
  * on a line: a shift alone. */
-typedef struct similarity {
-    double scale;
-    rigid motion; /* after the scale */
-} similarity;
-
 similarity similarity_fit(const double *from, const double *to, const double *weight, int32_t count);
-void similarity_apply(const similarity *s, const double x[3], double out[3]);
 
 /* moved: the teeth where the jaw has carried them, `as` of the template; each goes to the similarity that fits its
  * carried vertices best, then, where there is a target (else NULL), in a few rounds to what of it is nearest.
