@@ -70,12 +70,13 @@ typedef struct cut_fragment {             /* an island that the cut left */
 } cut_fragment;
 
 typedef struct cut_report {
-    int balance_count, clearance_count, fragment_count, plane_count, warning_count;
+    int balance_count, clearance_count, fragment_count, plane_count, warning_count, note_count;
     cut_balance *balance;
     cut_clearance *clearance;
     cut_fragment *fragment;
-    cut_plane *plane; /* the planes that were used, for display */
-    char (*warning)[256];
+    cut_plane *plane;     /* the planes that were used, for display */
+    char (*warning)[256]; /* what is not as it should be */
+    char (*note)[256];    /* what the cuts did to keep off roots and teeth */
     double volume_mm3[SEGMENT_COUNT], kerf_mm3;
     int32_t handles[SEGMENT_COUNT]; /* genus of each segment (geometry/handles.h) */
 } cut_report;

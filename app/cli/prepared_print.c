@@ -19,6 +19,7 @@ void prepared_print(const prepared *p)
                number(value, "value_mm"), number(value, "limit_mm"),
                json_is_true(json_object_get(value, "ok")) ? "ok" : "TOO CLOSE",
                json_is_true(json_object_get(value, "estimated")) ? " (estimated)" : "");
+    json_array_foreach(json_object_get(cuts, "notes"), i, value) printf("  %s\n", json_string_value(value));
     printf("tissue: %.0f nodes, %.0f tets, %.1f cm3; dihedral angles %.1f to %.1f deg, radius ratio at least "
            "%.3f, mean "
            "%.2f; smallest tet %.2g mm3\n",

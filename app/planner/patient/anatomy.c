@@ -90,6 +90,8 @@ static bool cut(const case_file *c, anatomy *a, err *e)
     free(planes);
     for (int i = 0; ok && i < a->cuts.warning_count; i++)
         issue_add(&a->warnings, ISSUE_WARNING, ERR_NONE, NULL, 0, "cuts", "%s", a->cuts.warning[i]);
+    for (int i = 0; ok && i < a->cuts.note_count; i++)
+        issue_add(&a->warnings, ISSUE_INFO, ERR_NONE, NULL, 0, "cuts", "%s", a->cuts.note[i]);
     return ok;
 }
 

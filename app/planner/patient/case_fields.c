@@ -84,7 +84,7 @@ static const field rows[] = {
     CASE(tissue.growth, "mm/mm", FROM(0), TO(2), "Growth of the edge length per mm of distance."),
     CASE(tissue.hole_mm, "mm", FROM(1), TO(60), "Openings of the skeleton narrower than this are spanned."),
     CASE(tissue.collar_mm, "mm", FROM(0), TO(30), "Tissue kept below the spanned openings."),
-    CASE(tissue.detail_mm, "mm", FROM(0), TO(10), "Gaps between bones narrower than this are filled."),
+    CASE(tissue.detail_mm, "mm", FROM(0.1), TO(10), "Gaps between bones narrower than this are filled."),
     CASE(tissue.touch_mm, "mm", FROM(0), TO(10), "Tissue nodes nearer to bone than this are moved onto it."),
     CASE(tissue.cut_band_mm, "mm", FROM(0), TO(20),
          "Half width of the strip along a saw cut where tissue hangs loose."),

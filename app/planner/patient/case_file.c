@@ -209,6 +209,21 @@ static void leave_out_landmarks(const json_file *f, bool needed, const case_file
     json_object_del(f->root, "landmarks");
 }
 
+/* What two fields must be to each other. */
+static void check_lengths(const json_file *f, const tissue_params *t, issue_list *issues)
+{
+    const json_t *own = json_object_get(f->root, "tissue");
+    if (t->element_mm > t->coarse_mm)
+        fields_issue(f, json_object_get(own, "element_mm") ? "/tissue/element_mm" : "/tissue/coarse_mm", issues,
+                     "element_mm is %g and coarse_mm %g; the finest edge must be at most the coarsest", t->element_mm,
+                     t->coarse_mm);
+    if (t->detail_mm >= t->hole_mm)
+        fields_issue(
+            f, json_object_get(own, "hole_mm") ? "/tissue/hole_mm" : "/tissue/detail_mm", issues,
+            "hole_mm is %g and detail_mm %g; openings that are spanned must be wider than gaps that are filled",
+            t->hole_mm, t->detail_mm);
+}
+
 static bool read_case(const char *path, bool needs_landmarks, case_file *out, issue_list *issues)
 {
     case_file *c = out;
@@ -232,6 +247,7 @@ static bool read_case(const char *path, bool needs_landmarks, case_file *out, is
     } else {
         leave_out_landmarks(&f, needs_landmarks, c, issues);
         fields_read(case_fields(), &f, f.root, "", c, issues);
+        check_lengths(&f, &c->tissue, issues);
         read_osteotomies(&f, c, issues);
         issue_sort_by_line(issues, from);
         const json_t *limits = json_object_get(f.root, "limits");

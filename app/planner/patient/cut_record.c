@@ -70,6 +70,13 @@ static const void *next_warning(const void *of, int *i, const char **key, void *
     return *i < r->warning_count ? r->warning[*i] : NULL;
 }
 
+static const void *next_note(const void *of, int *i, const char **key, void *space)
+{
+    const cut_report *r = of;
+    (void)key, (void)space;
+    return *i < r->note_count ? r->note[*i] : NULL;
+}
+
 static const record_row cuts_row[] = {
     ROW_MAP(next_volume, "segment", NUMBER, NULL, "segment_mm3", "mm3", "volume of each segment"),
     ROW_MAP(next_handles, "segment", COUNT, NULL, "segment_handles", NULL,
@@ -79,6 +86,7 @@ static const record_row cuts_row[] = {
     ROW_ARRAY(cut_report, clearance, clearance_count, &clearance_table, "clearance", "how far cuts keep off what"),
     ROW_ARRAY(cut_report, fragment, fragment_count, &fragment_table, "fragments", "islands that the cuts left"),
     ROW_TEXTS(next_warning, "warnings", "what is not as it should be"),
+    ROW_TEXTS(next_note, "notes", "what the cuts did to keep off roots and teeth"),
 };
 const record_table cuts_table = {.title = "Cuts of the bones", RECORD_ROWS(cuts_row)};
 

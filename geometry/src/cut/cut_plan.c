@@ -161,6 +161,7 @@ void report_take(cut_report *r, cut_report *from)
     TAKE(cut_plane, plane);
 #undef TAKE
     for (int i = 0; i < from->warning_count; i++) report_warning(r, "%s", from->warning[i]);
+    for (int i = 0; i < from->note_count; i++) report_note(r, "%s", from->note[i]);
     cut_report_free(from);
 }
 
@@ -193,6 +194,15 @@ void report_warning(cut_report *r, const char *fmt, ...)
     va_end(args);
 }
 
+void report_note(cut_report *r, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    r->note = mem_grow(r->note, (size_t)r->note_count + 1, sizeof *r->note);
+    vsnprintf(r->note[r->note_count++], sizeof *r->note, fmt, args);
+    va_end(args);
+}
+
 void cut_report_free(cut_report *r)
 {
     free(r->balance);
@@ -200,5 +210,6 @@ void cut_report_free(cut_report *r)
     free(r->fragment);
     free(r->plane);
     free(r->warning);
+    free(r->note);
     *r = (cut_report){0};
 }

@@ -68,3 +68,4 @@ void report_take(cut_report *r, cut_report *from);
 void report_clearance(cut_report *r, const char *name, double value_mm, double limit_mm, bool estimated);
 void report_plane(cut_report *r, const char *label, const double point[3], const double normal[3]);
 void report_warning(cut_report *r, const char *fmt, ...) PRINTF_LIKE(2, 3);
+void report_note(cut_report *r, const char *fmt, ...) PRINTF_LIKE(2, 3);

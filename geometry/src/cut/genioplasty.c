@@ -142,10 +142,10 @@ static void choose_plane(chin *c, const osteotomy_params *p, const guard_point *
                        "hold a plate",
                        c->apex_mm, plane_z(c, c->me[1]) - c->me[2]);
     if (fabs(c->slope) > 1e-6)
-        report_warning(r,
-                       "the chin cut is tilted by %.1f degrees against the lower occlusal plane, to leave the lower "
-                       "border beside the molars",
-                       atan(c->slope) * 180 / acos(-1));
+        report_note(r,
+                    "the chin cut is tilted by %.1f degrees against the lower occlusal plane, to leave the lower "
+                    "border beside the molars",
+                    atan(c->slope) * 180 / acos(-1));
 }
 
 /* Where the plane, behind its exit at `end`, is furthest below the bone, the body can end without cutting. */

@@ -168,8 +168,8 @@ static bool find_medial_cut(jaw_side *j, const osteotomy_params *p, cut_report *
     j->top = j->li[2] + p->above_lingula_mm;
     double teeth = fmax(j->l6[2], j->l7[2]) + 1;
     if (j->top < teeth) {
-        report_warning(r, "BSSO %s: the medial cut is raised by %.1f mm to stay above the molars", jaw_side_word(j),
-                       teeth - j->top);
+        report_note(r, "BSSO %s: the medial cut is raised by %.1f mm to stay above the molars", jaw_side_word(j),
+                    teeth - j->top);
         j->top = teeth;
     }
     if (j->top > j->sn[2] - NOTCH_MM)

@@ -302,8 +302,7 @@ bool le_fort_bodies(const osteotomy_input *in, const osteotomy_params *p, cut_bo
         return false;
     }
     if (s.raise_mm > 0)
-        report_warning(r, "Le Fort I raised by %.2f mm above PR, ZB and PM to clear the estimated root tips",
-                       s.raise_mm);
+        report_note(r, "Le Fort I raised by %.2f mm above PR, ZB and PM to clear the estimated root tips", s.raise_mm);
     for (int i = 0; i < count; i++)
         report_clearance(r, list[i].name, mm[i],
                          !list[i].below   ? p->foramen_clearance_mm
