@@ -54,10 +54,10 @@ const verb_row verbs[] = {
     {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(verb_audit)},
     {"template", "the head in whose numbering all heads are described", WITH_SIM(verb_template)},
     {"study", "error against run time of a case", WITH_SIM(verb_study)},
+    {"identities", "learn how heads differ, and make new ones", WITH_SIM(verb_identities)},
     {"stress", "stiff materials and extreme moves", WITH_SOLVER(verb_stress)},
     {"serve", "plan in a browser", NOT_BUILT},
     {"cohort", "run many cases", NOT_BUILT},
-    {"shape", "statistical shapes of heads", NOT_BUILT},
     {"strain", "muscle strains from face captures", NOT_BUILT},
 };
 const int verb_count = sizeof verbs / sizeof verbs[0];

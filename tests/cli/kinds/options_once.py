@@ -5,7 +5,7 @@ from common import *
 values = {"MM": ("1", "2"), "N": ("2", "3"), "HU": ("1", "2"), "DEG": ("2", "3"), "f|m": ("f", "m"), "1|2|3": ("1", "2"),
           "0..1": ("0.5", "0.6"), "WxH": ("200x200", "300x300"), "AXES": ("lps", "ras"), "UNIT": ("mm", "cm"),
           "KIND": ("bones", "off"), "FORM": ("sform", "qform"), "WHEN": ("after", "before"), "END": ("5", "6"), "HOW": ("skin", "none"),
-          "FACTOR": ("2", "3"), "FORMAT": ("obj", "ply"), "FILE.html": ("a.html", "b.html")}
+          "FACTOR": ("2", "3"), "A,B,...": ("1", "1,2"), "FORMAT": ("obj", "ply"), "FILE.html": ("a.html", "b.html")}
 both = {"import": ["skin", "skull", "mandible", "upper-teeth", "lower-teeth", "labels"], "audit": ["line", "pair", "box"],
         "render": ["show", "view"], "new": ["set"]}
 everywhere = ["jobs", "progress"]  # name no part of a result
