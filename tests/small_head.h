@@ -63,7 +63,8 @@ static inline tetmesh small_block(void)
 
 static inline head_template small_head(void)
 {
-    head_template t = {.version = 1, .hash = "5ma11", .point_count = 4, .point = NEW_ARRAY(head_point, 4)};
+    head_template t = {
+        .version = 1, .numbering = "5ma11", .hash = "5ma11", .point_count = 4, .point = NEW_ARRAY(head_point, 4)};
     t.part[CASE_SKIN] = small_ball(0, 0, 0, 80, 100, 120, 16);
     t.part[CASE_SKULL] = small_ball(0, 0, 30, 60, 75, 70, 12);
     t.part[CASE_MANDIBLE] = small_ball(0, -30, -75, 30, 30, 15, 8);

@@ -12,7 +12,7 @@ static void print_gaps(const head_gap gap[HEAD_GAP_COUNT], const char *what, FIL
 void identities_print(const identities_learnt *l, FILE *to)
 {
     const head_model *m = &l->model;
-    fprintf(to, "%d heads, %d modes, template %.12s\n", m->modes.sample_count, m->modes.mode_count, m->template_hash);
+    fprintf(to, "%d heads, %d modes, numbering %.12s\n", m->modes.sample_count, m->modes.mode_count, m->numbering);
     if (l->bytes)
         fprintf(to, "%d heads fitted in %.1f s, %d refused, learnt in %.1f s, %.1f MiB\n", l->fresh, l->fit_s,
                 l->refused, l->learn_s, (double)l->bytes / 1048576);

@@ -61,7 +61,7 @@ static bool was_learnt(const void *of) { return learnt_of(of)->bytes > 0; }
 
 static const record_row learnt_row[] = {
     ROW_FOUND(NUMBER, heads, "heads", NULL, "heads it was learnt from"),
-    ROW(identities_learnt, model.template_hash, "template", NULL, "hash of the template that was fitted to them"),
+    ROW(identities_learnt, model.numbering, "numbering", NULL, "hash of the numbering of the template that was fitted"),
     ROW_WHEN(was_learnt, identities_learnt, refused, "refused", NULL, "heads that could not be had"),
     ROW_WHEN(was_learnt, identities_learnt, fresh, "fitted", NULL, "heads that were fitted in this run"),
     ROW_WHEN(was_learnt, identities_learnt, fit_s, "seconds.fit", "s", "wall time of these fits"),

@@ -161,16 +161,17 @@ static void a_model_of_another_template_or_not_whole_is_refused_by_name(void **u
     err e = {0};
     head_model m = learnt();
     assert_ok(head_model_write(&m, "other.model", &e));
-    char own = t.hash[0];
-    t.hash[0] = 'x';
-    refuse_file("other.model", "other.model: was learnt on another template (5ma11) than this program's (xma11)");
-    t.hash[0] = own;
+    char own = t.numbering[0];
+    t.numbering[0] = 'x';
+    refuse_file("other.model",
+                "other.model: was learnt on a template of another numbering (5ma11) than this program's (xma11)");
+    t.numbering[0] = own;
     refuse_file("none.model", "none.model: cannot be read: No such file or directory");
     assert_int_equal(truncate("other.model", 4000), 0);
     refuse_file("other.model", "is not a whole model of identities");
     m.modes.length -= 3;
     assert_ok(head_model_write(&m, "other.model", &e));
-    refuse_file("other.model", "other.model: mean: holds");
+    refuse_file("other.model", "other.model: weights: holds");
     m.modes.length += 3;
     m.modes.sd[1] = NAN;
     assert_ok(head_model_write(&m, "other.model", &e));

@@ -146,7 +146,7 @@ bool head_gather(const head_template *t, const head_source *from, const char *ke
                    .stop = e};
     char whole_key[HASH_TEXT_SIZE];
     content_hash *h = content_hash_start();
-    content_hash_text(h, "template", t->hash);
+    content_hash_text(h, "template", t->hash); /* a fit depends on every place of it */
     content_hash_text(h, "source", key);
     for (int32_t i = 0; i < from->count; i++) content_hash_text(h, "head", from->name[i]);
     content_hash_end(h, whole_key);

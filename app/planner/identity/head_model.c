@@ -41,7 +41,7 @@ bool head_model_learn(const head_template *t, const double *const *phi, const ch
     if (count < 3)
         return err_set(e, ERR_GEOMETRY, "%d heads: a model is learnt from at least three, better a hundred", count);
     head_model m = {0};
-    memcpy(m.template_hash, t->hash, sizeof m.template_hash);
+    memcpy(m.numbering, t->numbering, sizeof m.numbering);
     head_layout l = head_layout_of(t);
     double *weight = head_vector_weights(t);
     task_progress(watch, "main directions", -1);

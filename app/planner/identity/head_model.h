@@ -9,11 +9,11 @@
 enum { HEAD_MODES_MOST = 40, HEAD_NAME_SIZE = 64 };
 
 typedef struct head_model {
-    char template_hash[HASH_TEXT_SIZE];
-    principal modes;              /* of phi (head_vector.h) */
-    char (*name)[HEAD_NAME_SIZE]; /* [modes.sample_count] of the heads it was learnt from, ends at a zero byte */
-    int32_t left_out_modes;       /* each head from all others: */
-    double *left_out_rms_mm;      /* [left_out_modes+1] with so many modes: root of the mean over blocks and heads */
+    char numbering[HASH_TEXT_SIZE]; /* of the template that was fitted */
+    principal modes;                /* of phi (head_vector.h) */
+    char (*name)[HEAD_NAME_SIZE];   /* [modes.sample_count] of the heads it was learnt from, ends at a zero byte */
+    int32_t left_out_modes;         /* each head from all others: */
+    double *left_out_rms_mm;        /* [left_out_modes+1] with so many modes: root of the mean over blocks and heads */
     head_gap left_out[HEAD_GAP_COUNT]; /* with all of them: mean of the heads' means and 95 %, largest of all heads */
 } head_model;
 
@@ -24,6 +24,6 @@ bool head_model_learn(const head_template *t, const double *const *phi, const ch
 void head_model_free(head_model *m);
 
 /* A checksummed pack. Reading refuses (ERR_INPUT), by name, a file that is none or not whole, and a model of another
- * template. The caller frees *out. */
+ * numbering. The caller frees *out. */
 bool head_model_write(const head_model *m, const char *path, err *e) MUST_CHECK;
 bool head_model_read(const char *path, const head_template *t, head_model *out, err *e) MUST_CHECK;

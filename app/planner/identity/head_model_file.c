@@ -17,8 +17,9 @@ bool head_model_write(const head_model *m, const char *path, err *e)
     size_t n = (size_t)p->length, modes = (size_t)p->mode_count, samples = (size_t)p->sample_count;
     pack_file f = {0};
     pack_put(&f, "format", format, sizeof format);
-    pack_put(&f, "template", m->template_hash, sizeof m->template_hash);
+    pack_put(&f, "numbering", m->numbering, sizeof m->numbering);
     pack_put(&f, "names", m->name, samples * sizeof *m->name);
+    pack_put(&f, "weights", p->weight, n * sizeof *p->weight);
     pack_put(&f, "mean", p->mean, n * sizeof *p->mean);
     pack_put(&f, "modes", p->mode, n * modes * sizeof *p->mode);
     pack_put(&f, "sd", p->sd, modes * sizeof *p->sd);
@@ -59,15 +60,16 @@ static double *take_numbers(const pack_file *f, const char *path, const char *na
     return number;
 }
 
-static bool same_template(const pack_file *f, const char *path, const head_template *t, err *e)
+static bool same_numbering(const pack_file *f, const char *path, const head_template *t, err *e)
 {
     size_t n = 0;
-    char *hash = take(f, path, "template", 1, HASH_TEXT_SIZE, &n, e);
+    char *hash = take(f, path, "numbering", 1, HASH_TEXT_SIZE, &n, e);
     if (!hash) return false;
-    bool same = !strncmp(hash, t->hash, HASH_TEXT_SIZE);
+    bool same = !strncmp(hash, t->numbering, HASH_TEXT_SIZE);
     if (!same)
         err_at(e, ERR_INPUT, path, 0, NULL,
-               "was learnt on another template (%.12s) than this program's (%.12s): learn it again", hash, t->hash);
+               "was learnt on a template of another numbering (%.12s) than this program's (%.12s): learn it again",
+               hash, t->numbering);
     free(hash);
     return same;
 }
@@ -78,7 +80,8 @@ static bool take_modes(const pack_file *f, const char *path, const head_template
     size_t modes = 0, samples = 0;
     p->length = head_layout_of(t).start[HEAD_BLOCK_COUNT];
     m->name = take(f, path, "names", sizeof *m->name, 0, &samples, e);
-    p->mean = m->name ? take_numbers(f, path, "mean", (size_t)p->length, NULL, e) : NULL;
+    p->weight = m->name ? take_numbers(f, path, "weights", (size_t)p->length, NULL, e) : NULL;
+    p->mean = p->weight ? take_numbers(f, path, "mean", (size_t)p->length, NULL, e) : NULL;
     p->sd = p->mean ? take_numbers(f, path, "sd", 0, &modes, e) : NULL;
     p->mode = p->sd ? take_numbers(f, path, "modes", modes * (size_t)p->length, NULL, e) : NULL;
     double *variance = p->mode ? take_numbers(f, path, "variance", 1, NULL, e) : NULL;
@@ -86,7 +89,6 @@ static bool take_modes(const pack_file *f, const char *path, const head_template
     p->sample_count = (int32_t)samples;
     p->mode_count = (int32_t)modes;
     p->variance = *variance;
-    p->weight = head_vector_weights(t);
     free(variance);
     for (size_t k = 0; k < modes; k++)
         if (!(p->sd[k] > 0)) return err_at(e, ERR_INPUT, path, 0, "sd", "number %zu is not above 0", k);
@@ -108,7 +110,7 @@ bool head_model_read(const char *path, const head_template *t, head_model *out, 
         err_at(e, ERR_INPUT, path, 0, NULL, "is not a whole model of identities; gnathos identities learn makes one");
     free(kind);
     head_model m = {0};
-    ok = ok && same_template(&f, path, t, e) && take_modes(&f, path, t, &m, e);
+    ok = ok && same_numbering(&f, path, t, e) && take_modes(&f, path, t, &m, e);
     size_t rms = 0;
     m.left_out_rms_mm = ok ? take_numbers(&f, path, "left out rms", 0, &rms, e) : NULL;
     double *gap = m.left_out_rms_mm ? take_numbers(&f, path, "left out", 3 * HEAD_GAP_COUNT, NULL, e) : NULL;
@@ -116,7 +118,7 @@ bool head_model_read(const char *path, const head_template *t, head_model *out, 
     if (ok) {
         m.left_out_modes = (int32_t)rms - 1;
         memcpy(m.left_out, gap, sizeof m.left_out);
-        memcpy(m.template_hash, t->hash, sizeof m.template_hash);
+        memcpy(m.numbering, t->numbering, sizeof m.numbering);
         *out = m;
     } else {
         head_model_free(&m);
