@@ -72,6 +72,20 @@ static bool open_folder(const char *path, err *e)
     return make_folder(sub, e);
 }
 
+/* A folder in which nothing was kept goes again. */
+static void leave_folder(const char *path)
+{
+    static const char *const sub[] = {"runs", "prepared"};
+    char name[FIELD_PATH_SIZE];
+    bool empty = true;
+    for (int i = 0; i < 2; i++) {
+        snprintf(name, sizeof name, "%s/%s", path, sub[i]);
+        empty = !rmdir(name) && empty;
+    }
+    snprintf(name, sizeof name, "%s/manifest.json", path);
+    if (empty && !unlink(name)) rmdir(path);
+}
+
 static bool run_ladder(const run_context *r, study_table *t, err *e)
 {
     for (int i = 0; i < study_rung_count; i++) {
@@ -124,7 +138,11 @@ static bool run(run_context *r, err *e)
                        .cache = r->cache,
                        .name = "plan"};
     memcpy(work.motion, r->moves.move, sizeof work.motion);
-    if (!open_folder(r->out_path, e) || !verb_prepare_case(r, e)) return false;
+    if (!open_folder(r->out_path, e)) return false;
+    if (!verb_prepare_case(r, e)) {
+        leave_folder(r->out_path);
+        return false;
+    }
     return o->ratios ? ratios(r, &work, e) : study(r, &work, *r->plan.name ? r->plan.name : "plan", e);
 }
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run_predict.sh GNATHOS PLAN CASE|--class N [KEEP]: predicts a plan on a case (or on a synthetic head made here), and reads
 # the outcome as a user's script would. A case that is absent is skipped (status 77). KEEP: the outcome is left
-# there, and the files of the case in KEEP.case.
+# there, and the prepared case in KEEP.case.
 set -eu
 gnathos=$1 plan=$2 case=$3
 work=$(mktemp -d)
@@ -146,7 +146,7 @@ if [ -z "$pictures" ]; then
 fi
 # an output in use is not replaced unasked
 if "$gnathos" predict "$work/case" --plan "$plan" -o "$work/out" >/dev/null 2>&1; then fail "an old output was replaced"; fi
-[ -z "${5:-}" ] || { rm -rf "$5" "$5.case"; mv "$work/out" "$5"; mkdir "$5.case"; cp "$work/case"/*.* "$5.case"; }
+[ -z "${5:-}" ] || { rm -rf "$5" "$5.case"; mv "$work/out" "$5"; mkdir "$5.case"; cp -R "$work/case/prepared" "$work/case"/*.* "$5.case"; }
 # and the bounds of its controls, on the synthetic head, which is prepared by now
 if [ -n "$pictures" ]; then exit 0; fi
 sh "$(dirname "$0")/run_audit.sh" "$gnathos" "$work/case"
