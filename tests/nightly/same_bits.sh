@@ -1,11 +1,11 @@
 #!/bin/sh
-# same_bits.sh [RUNS [ELEMENT_MM [CLASS]]]: new, cut, prepare and predict of the synthetic class III head, RUNS (10) times
-# with 1, 2, 3 and 8 threads in turn and other bytes in fresh memory each time, write the same bytes. Every file of every
+# same_bits.sh [RUNS [ELEMENT_MM [CLASS [COARSENESS]]]]: new, cut, prepare and predict of the synthetic class III head, RUNS
+# (10) times with 1, 2, 3 and 8 threads in turn and other bytes in fresh memory each time, write the same bytes. Every file of every
 # run is compared with that of the first; of outcome.json times and the peak of memory are left out of that.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 gnathos=${GNATHOS_BUILD:-$root/build}/app/gnathos
-runs=${1:-10} element=${2:-3} class=${3:-3} failed=0
+runs=${1:-10} element=${2:-3} class=${3:-3} coarseness=${4:-1} failed=0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -24,7 +24,7 @@ for run in $(seq "$runs"); do
     jobs=$(echo 8 1 2 3 | cut -d ' ' -f $((run % 4 + 1)))
     mkdir "$run"
     export MALLOC_PERTURB_=$((run * 25 % 256))
-    "$gnathos" new "$run/case" --norm --class "$class" -j "$jobs" -q >"$run/new.txt"
+    "$gnathos" new "$run/case" --norm --class "$class" --coarseness "$coarseness" -j "$jobs" -q >"$run/new.txt"
     sed 's/"osteotomies"/"tissue": { "element_mm": '"$element"' }, "osteotomies"/' "$run/case/case.json" >"$run/case.json"
     mv "$run/case.json" "$run/case/case.json"
     "$gnathos" cut "$run/case" -o "$run/cut" -j "$jobs" -q >"$run/cut.txt"
