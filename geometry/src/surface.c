@@ -1,6 +1,7 @@
 #include "geometry/surface.h"
 #include "geometry/mem.h"
 #include "geometry/src/union_find.h"
+#include "geometry/triangle.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -63,21 +64,11 @@ void surface_bounds(const surface *s, double low[3], double high[3])
         }
 }
 
-/* Twice the area vector of triangle t. */
-static void area_vector(const surface *s, int32_t t, double n[3])
-{
-    const int32_t *v = s->tri + 3 * (size_t)t;
-    double a[3], b[3];
-    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], a);
-    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], b);
-    vec_cross(a, b, n);
-}
-
 double surface_area(const surface *s)
 {
     double sum = 0, n[3];
     for (int32_t t = 0; t < s->triangle_count; t++) {
-        area_vector(s, t, n);
+        triangle_area_vector(s, t, n);
         sum += vec_norm(n) / 2;
     }
     return sum;
@@ -99,7 +90,7 @@ double *surface_vertex_normals(const surface *s)
 {
     double *normal = NEW_ARRAY(double, 3 * (size_t)s->vertex_count), n[3];
     for (int32_t t = 0; t < s->triangle_count; t++) {
-        area_vector(s, t, n);
+        triangle_area_vector(s, t, n);
         for (int k = 0; k < 3; k++) {
             double *m = normal + 3 * (size_t)s->tri[3 * (size_t)t + k];
             vec_add(m, n, m);

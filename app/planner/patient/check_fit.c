@@ -1,21 +1,12 @@
 #include "app/planner/patient/check_fit.h"
 #include "geometry/mem.h"
+#include "geometry/triangle.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
 
 enum { STEPS = 40, UNKNOWNS = 6 };
 static const double kept_share = 0.8, still_mm = 1e-6;
-
-static void normal_of(const surface *s, int32_t t, double out[3])
-{
-    const int32_t *v = s->tri + 3 * (size_t)t;
-    double u[3], w[3];
-    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], u);
-    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], w);
-    vec_cross(u, w, out);
-    vec_normalize(out);
-}
 
 double fit_distance(const fit_body *b, const double p[3], double point[3], double normal[3])
 {
@@ -27,7 +18,7 @@ double fit_distance(const fit_body *b, const double p[3], double point[3], doubl
         if (d >= least) continue;
         least = d;
         if (point) vec_copy(at, point);
-        if (normal) normal_of(b->mesh[i], triangle, normal);
+        if (normal) triangle_normal(b->mesh[i], triangle, normal);
     }
     return least;
 }

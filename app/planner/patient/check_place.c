@@ -122,11 +122,11 @@ static void try_fit(const fit_body *b, const double *p, int n, place_how how, pl
 
 static bool tells(const place *p)
 {
-    const double least_gain = 0.5, left_most_mm = 1, least_mm = 1.5, least_scale = 0.01, least_deg = 1.5;
+    const double least_gain = 0.5, left_most_mm = 1, least_mm = 1.5, least_scale = 0.01, least_deg = 1.5, most_deg = 45;
     if (p->left_mm > least_gain * p->off_mm || p->left_mm > left_most_mm) return false;
     if (p->how == MOVED) return vec_norm(p->shift) > least_mm;
     if (p->how == SCALED) return fabs(p->scale - 1) > least_scale;
-    return p->how != TURNED || p->turn_deg > least_deg;
+    return p->how != TURNED || (p->turn_deg > least_deg && p->turn_deg < most_deg); /* beyond: a fit gone astray */
 }
 
 static place find_place(const fit_body *b, const double *p, int n, double middle_x)

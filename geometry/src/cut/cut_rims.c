@@ -1,5 +1,6 @@
 #include "geometry/cut_rims.h"
 #include "geometry/mem.h"
+#include "geometry/triangle.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -76,16 +77,6 @@ static int compare_edges(const void *a, const void *b)
     if (p->low != q->low) return p->low < q->low ? -1 : 1;
     if (p->high != q->high) return p->high < q->high ? -1 : 1;
     return (p->triangle > q->triangle) - (p->triangle < q->triangle);
-}
-
-static void triangle_normal(const surface *s, int32_t t, double out[3])
-{
-    const int32_t *v = s->tri + 3 * (size_t)t;
-    double a[3], b[3];
-    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], a);
-    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], b);
-    vec_cross(a, b, out);
-    vec_normalize(out);
 }
 
 static void find_rim(const surface *s, const uint8_t *near, double **piece, int *count)

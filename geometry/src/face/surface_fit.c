@@ -2,6 +2,7 @@
 #include "geometry/nearest.h"
 #include "geometry/parallel.h"
 #include "geometry/surface_compare.h"
+#include "geometry/triangle.h"
 #include "geometry/vec.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,17 +22,6 @@ typedef struct fit_job {
     rigid back; /* from the still surface's place into the moving one's */
     pair *out;
 } fit_job;
-
-static void triangle_normal(const surface *s, int32_t t, double out[3])
-{
-    const double *a = s->xyz + 3 * (size_t)s->tri[3 * t], *b = s->xyz + 3 * (size_t)s->tri[3 * t + 1],
-                 *c = s->xyz + 3 * (size_t)s->tri[3 * t + 2];
-    double u[3], v[3];
-    vec_sub(b, a, u);
-    vec_sub(c, a, v);
-    vec_cross(u, v, out);
-    vec_normalize(out);
-}
 
 static void pair_up(int64_t begin, int64_t end, void *context)
 {
