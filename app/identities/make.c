@@ -8,6 +8,7 @@
 #include <string.h>
 
 const double identities_sd_most = 3; /* beyond it a normal distribution has one head in 400 per mode */
+const double identities_sd_drawn = 2;
 
 /* S. Vigna's splitmix64. */
 static uint64_t next_bits(uint64_t *state)
@@ -25,7 +26,7 @@ static double normal(uint64_t *state)
 {
     for (;;) {
         double r = sqrt(-2 * log(uniform(state))), x = r * cos(2 * M_PI * uniform(state));
-        if (fabs(x) <= identities_sd_most) return x;
+        if (fabs(x) <= identities_sd_drawn) return x;
     }
 }
 
@@ -83,7 +84,7 @@ static bool try_all(const head_template *t, const head_model *m, identities_made
         if (!again && made->random && made->tries == tries)
             return err_set(e, why.code, "none of %d draws is a head; the last: %s", tries, text);
         if (!again) return err_set(e, why.code, "%s", text);
-        task_note(watch, "draw %d of seed %llu is no head: %s", made->tries, (unsigned long long)made->seed, text);
+        task_note(watch, "draw %d of seed %llu: %s", made->tries, (unsigned long long)made->seed, text);
     }
 }
 

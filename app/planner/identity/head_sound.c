@@ -79,6 +79,11 @@ bool head_soundness_of(const head_template *t, const head_shape *s, head_soundne
     head_soundness f = {.min_j = HUGE_VAL};
     measure_tets(&t->tissue.mesh, s->neutral, t->tissue.mesh.xyz, &f);
     measure_tets(&t->tissue.mesh, s->rest, t->rest, &f);
+    if (f.inverted_tets) {
+        f.bone_out_mm = f.teeth_overlap_mm = (double)NAN;
+        *out = f;
+        return true;
+    }
     surface part[CASE_SURFACE_COUNT];
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) part[i] = head_part(t, s, (case_surface)i);
     nearest *skin = NULL;

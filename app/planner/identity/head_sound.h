@@ -5,6 +5,7 @@
 typedef struct head_soundness {
     double min_j; /* least volume of a tetrahedron over its volume in the template, at rest and at neutral */
     int32_t inverted_tets;
+    /* NaN where tetrahedra are inverted: not asked then, because it takes long */
     double bone_out_mm;      /* how far the farthest vertex of bone or tooth lies outside the skin; 0: none does */
     case_surface bone;       /* whose vertex that is */
     double teeth_overlap_mm; /* the deepest vertex of a lower tooth in the upper ones, or the other way about */
