@@ -4,27 +4,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool fit(const head_template *t, const head_scan *scan, const task *watch, head_shape *out, err *e)
-{
-    head_fit_params p = head_fit_params_default();
-    head_fit f;
-    if (!head_fit_make(t, scan, &p, watch, &f, e)) return false;
-    *out = f.shape;
-    f.shape = (head_shape){0};
-    head_fit_free(&f);
-    return true;
-}
+static const double guessed_told = 0.1;
 
-bool fits_case(const head_template *t, const char *case_path, const task *watch, head_shape *out, char *name,
-               size_t name_size, err *e)
+bool fits_case(const head_template *t, const char *path, const task *watch, head_fit *out, char *name, size_t name_size,
+               err *e)
 {
     case_file c;
     head_scan scan = {0};
-    bool ok = case_file_load(case_path, &c, e) && head_scan_read(&c, *c.landmarks != 0, &scan, e) &&
-              fit(t, &scan, watch, out, e);
+    head_fit_params p = head_fit_params_default();
+    bool ok = case_file_load(path, &c, e) && head_scan_read(&c, *c.landmarks != 0, &scan, e) &&
+              head_fit_make(t, &scan, &p, watch, out, e);
     if (ok) snprintf(name, name_size, "%s", c.name);
     head_scan_free(&scan);
     return ok;
+}
+
+double fits_guessed(const head_template *t, const head_fit *f, case_surface part)
+{
+    int32_t count = t->part[part].vertex_count, guessed = 0;
+    for (int32_t i = 0; i < count; i++) guessed += f->guessed[part][i] != 0;
+    return (double)guessed / count;
 }
 
 static norm_head_params norm_params(const identities_learn *p, int32_t i)
@@ -37,8 +36,9 @@ static norm_head_params norm_params(const identities_learn *p, int32_t i)
     return n;
 }
 
-static bool fit_norm_head(const fits_source *s, int32_t i, const task *watch, head_shape *out, err *e)
+static bool fit_norm_head(const fits_source *s, int32_t i, const task *watch, head_fit *out, err *e)
 {
+    head_fit_params how = head_fit_params_default();
     norm_head_params p = norm_params(s->p, i);
     norm_head h;
     if (!norm_head_shape(s->mean, &p, &h, e)) return false;
@@ -48,7 +48,7 @@ static bool fit_norm_head(const fits_source *s, int32_t i, const task *watch, he
                                [CASE_MANDIBLE] = h.mandible,
                                [CASE_UPPER_TEETH] = h.upper_teeth,
                                [CASE_LOWER_TEETH] = h.lower_teeth}};
-    bool ok = fit(s->t, &scan, watch, out, e);
+    bool ok = head_fit_make(s->t, &scan, &how, watch, out, e);
     norm_head_free(&h); /* what the scan borrowed */
     return ok;
 }
@@ -60,8 +60,18 @@ static bool shape_of(void *context, int32_t i, head_shape *out, err *e)
     task quiet = {0};
     if (s->watch) quiet = (task){.interrupted = s->watch->interrupted, .context = s->watch->context};
     char name[FIELD_TEXT_SIZE];
-    return i < s->p->case_count ? fits_case(s->t, s->p->cases[i], &quiet, out, name, sizeof name, e)
-                                : fit_norm_head(s, i - s->p->case_count, &quiet, out, e);
+    head_fit f;
+    bool ok = i < s->p->case_count ? fits_case(s->t, s->p->cases[i], &quiet, &f, name, sizeof name, e)
+                                   : fit_norm_head(s, i - s->p->case_count, &quiet, &f, e);
+    if (!ok) return false;
+    double guessed = fits_guessed(s->t, &f, CASE_SKIN);
+    if (i < s->p->case_count && guessed > guessed_told)
+        task_note(s->watch, "%s: %.0f %% of its skin is not in the scan and guessed, which the model learns as it is",
+                  s->names[i], 100 * guessed);
+    *out = f.shape;
+    f.shape = (head_shape){0};
+    head_fit_free(&f);
+    return true;
 }
 
 /* All that a fit depends on. */

@@ -4,9 +4,11 @@
 #include "app/planner/identity/head_fit.h"
 #include "cases/norm_head/norm_head.h"
 
-/* The template on the head of a case: its shape, in the frame of the case. The caller frees *out. */
-bool fits_case(const head_template *t, const char *case_path, const task *watch, head_shape *out, char *name,
-               size_t name_size, err *e) MUST_CHECK;
+/* The template on the head of a case, in its frame. The caller frees *out. */
+bool fits_case(const head_template *t, const char *path, const task *watch, head_fit *out, char *name, size_t name_size,
+               err *e) MUST_CHECK;
+/* Share of the vertices of a part that the fit guessed. */
+double fits_guessed(const head_template *t, const head_fit *f, case_surface part);
 
 typedef struct fits_source { /* not to be moved in memory */
     head_source source;

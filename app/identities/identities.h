@@ -32,11 +32,12 @@ typedef struct identities_projection {
     const head_model *model;
     double p[HEAD_MODES_MOST], fit_s;
     head_gap gap[HEAD_GAP_COUNT]; /* from the fitted head to what the model makes of it */
-    double *phi, *made;           /* owned; [length] */
+    double guessed; /* share of the skin that is not in the scan; it decides nothing and is not in the gaps */
+    double *phi, *made, *known; /* owned; [length] known: 0 where the fit guessed */
 } identities_projection;
 
-/* The case's head in the template, and what the model makes of it. */
-bool identities_project(const head_template *t, const head_model *m, const char *case_path, const task *watch,
+/* The head of a case in the template, and what the model makes of it. */
+bool identities_project(const head_template *t, const head_model *m, const char *path, const task *watch,
                         identities_projection *out, err *e) MUST_CHECK;
 void identities_projection_free(identities_projection *p);
 

@@ -36,24 +36,55 @@ bool identities_learn_write(const head_template *t, const identities_learn *p, c
     return ok;
 }
 
-bool identities_project(const head_template *t, const head_model *m, const char *case_path, const task *watch,
+/* What a fit reaches of a good scan. */
+static const double noise_mm = 0.5;
+
+/* 0 where the fit guessed; of the tissue, which the scan does not show, all counts. */
+static double *known_of(const head_template *t, const head_fit *f)
+{
+    head_layout l = head_layout_of(t);
+    double *known = NEW_ARRAY(double, l.start[HEAD_BLOCK_COUNT]);
+    for (int b = 0; b < HEAD_BLOCK_COUNT; b++) {
+        int part = head_block_surface((head_block)b);
+        for (int32_t i = l.start[b]; i < l.start[b + 1]; i++)
+            known[i] = part < 0 || !f->guessed[part][(i - l.start[b]) / 3];
+    }
+    return known;
+}
+
+static bool project(const head_template *t, const head_fit *f, identities_projection *p, err *e)
+{
+    const principal *modes = &p->model->modes;
+    p->guessed = fits_guessed(t, f, CASE_SKIN);
+    p->known = known_of(t, f);
+    p->phi = NEW_ARRAY(double, modes->length);
+    p->made = NEW_ARRAY(double, modes->length);
+    head_vector_of(t, &f->shape, p->phi);
+    bool whole = true;
+    for (int32_t i = 0; whole && i < modes->length; i++) whole = p->known[i] > 0;
+    if (whole)
+        principal_project(modes, p->phi, p->p);
+    else if (!principal_complete(modes, p->phi, p->known, noise_mm, p->p, e))
+        return false;
+    principal_make(modes, p->p, modes->mode_count, p->made);
+    head_vector_gaps(t, p->phi, p->made, p->known, p->gap);
+    return true;
+}
+
+bool identities_project(const head_template *t, const head_model *m, const char *path, const task *watch,
                         identities_projection *out, err *e)
 {
     identities_projection p = {.model = m};
-    head_shape s = {0};
+    head_fit f = {0};
     double start = clock_s();
-    bool ok = fits_case(t, case_path, watch, &s, p.name, sizeof p.name, e) && head_shape_to_frankfort(t, &s, NULL, e);
-    if (ok) {
-        p.fit_s = clock_s() - start;
-        p.phi = NEW_ARRAY(double, m->modes.length);
-        p.made = NEW_ARRAY(double, m->modes.length);
-        head_vector_of(t, &s, p.phi);
-        principal_project(&m->modes, p.phi, p.p);
-        principal_make(&m->modes, p.p, m->modes.mode_count, p.made);
-        head_vector_gaps(t, p.phi, p.made, p.gap);
+    bool ok = fits_case(t, path, watch, &f, p.name, sizeof p.name, e) && head_shape_to_frankfort(t, &f.shape, NULL, e);
+    p.fit_s = clock_s() - start;
+    ok = ok && project(t, &f, &p, e);
+    head_fit_free(&f);
+    if (ok)
         *out = p;
-    }
-    head_shape_free(&s);
+    else
+        identities_projection_free(&p);
     return ok;
 }
 
@@ -61,5 +92,6 @@ void identities_projection_free(identities_projection *p)
 {
     free(p->phi);
     free(p->made);
+    free(p->known);
     *p = (identities_projection){0};
 }

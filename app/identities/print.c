@@ -5,8 +5,12 @@
 static void print_gaps(const head_gap gap[HEAD_GAP_COUNT], const char *what, FILE *to)
 {
     fprintf(to, "%-16s %8s %8s %8s   %s\n", "mm", "mean", "95 %", "largest", what);
-    for (int b = 0; b < HEAD_GAP_COUNT; b++)
-        fprintf(to, "%-16s %8.3f %8.3f %8.3f\n", head_gap_name(b), gap[b].mean_mm, gap[b].p95_mm, gap[b].max_mm);
+    for (int b = 0; b < HEAD_GAP_COUNT; b++) {
+        if (isnan(gap[b].mean_mm))
+            fprintf(to, "%-16s %8s %8s %8s\n", head_gap_name(b), "-", "-", "-");
+        else
+            fprintf(to, "%-16s %8.3f %8.3f %8.3f\n", head_gap_name(b), gap[b].mean_mm, gap[b].p95_mm, gap[b].max_mm);
+    }
 }
 
 void identities_print(const identities_learnt *l, FILE *to)
@@ -37,6 +41,8 @@ void identity_print(const identities_projection *p, FILE *to)
     for (int32_t k = 0; k < modes->mode_count; k++) fprintf(to, "%s%.3f", k ? "," : " ", p->p[k]);
     fprintf(to, "\n");
     print_gaps(p->gap, "from the fitted head to what the model makes of it", to);
+    if (p->guessed > 0)
+        fprintf(to, "%.1f %% of its skin is not in the scan: guessed, and not counted\n", 100 * p->guessed);
     double most = 0;
     for (int32_t k = 0; k < modes->mode_count; k++) most = fmax(most, fabs(p->p[k]));
     if (most > identities_sd_most)

@@ -104,6 +104,8 @@ static const record_row projection_row[] = {
      .name = "p",
      .help = "coefficients, in standard deviations of their modes"},
     ROW_MAP(next_error, "part", OBJECT, &gap_table, "error", NULL, "of what the model makes of the head"),
+    ROW(identities_projection, guessed, "guessed", NULL,
+        "share of the skin that is not in the scan: it decides nothing and is in no error"),
     ROW(identities_projection, fit_s, "seconds.fit", "s", "wall time of the fit"),
 };
 const record_table identity_table = {.kind = "identity",

@@ -5,6 +5,7 @@
 #endif
 #include "geometry/mem.h"
 #include "geometry/vec.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -38,7 +39,7 @@ bool identity_write(const head_template *t, const identities_projection *p, cons
     double *error_mm = NEW_ARRAY(double, skin.vertex_count);
     for (int32_t i = 0; i < skin.vertex_count; i++) {
         size_t at = (size_t)l.start[HEAD_SKIN] + 3 * (size_t)i;
-        error_mm[i] = vec_distance(p->phi + at, p->made + at);
+        error_mm[i] = p->known[at] > 0 ? vec_distance(p->phi + at, p->made + at) : (double)NAN;
     }
     const point_array array = {.name = "error_mm", .components = 1, .value = error_mm};
     snprintf(path, sizeof path, "%s/error.vtp", folder);

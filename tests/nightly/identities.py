@@ -45,7 +45,8 @@ def projections(gnathos, folder, model, heads):
             face.append((name, None))
             continue
         error = kept["record"]["error"]
-        print(f"{name:34} " + " ".join(f"{error[p]['mean_mm']:6.3f}/{error[p]['max_mm']:6.2f}" for p in PARTS))
+        print(f"{name:34} " + " ".join("      -/     -" if error[p]["mean_mm"] is None else
+                                       f"{error[p]['mean_mm']:6.3f}/{error[p]['max_mm']:6.2f}" for p in PARTS))
         face.append((name, error["face"]))
     return face
 
@@ -86,8 +87,17 @@ def main():
     for name, face in projections(gnathos, folder, model, held):
         if not face or face["mean_mm"] > 0.5 or face["max_mm"] > 3.3:
             faults.append(f"{name}: not within 0.5 mm in the mean and 3.3 mm at most over the face")
-    real = [(n, os.path.join(a.data, n)) for n in ("phantom_head_ct", "vtk_fullhead_ct")]
-    projections(gnathos, folder, model, [r for r in real if os.path.exists(os.path.join(r[1], "case.json"))])
+    real = []
+    for name in ("phantom_head_ct", "vtk_fullhead_ct"):
+        data, case = os.path.join(a.data, name), os.path.join(folder, name)
+        parts = [w for p in ("skin", "skull", "mandible") for w in ("--" + p, f"{data}/{p}.ply")]
+        if os.path.exists(f"{data}/skin.ply") and not os.path.exists(case):
+            done, _ = run(gnathos, "import", *parts, "--landmarks", f"{data}/landmarks.mrk.json", "-o", case, "-q")
+            if done.returncode:
+                print(done.stderr)
+        if os.path.exists(case):
+            real.append((name, case))
+    projections(gnathos, folder, model, real)
 
     draws, refused = 0, {}
     plan = os.path.join(folder, "plan.json")

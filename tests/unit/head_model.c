@@ -55,7 +55,7 @@ static double farthest(const double *a, const double *b)
 {
     head_gap gap[HEAD_GAP_COUNT];
     double most = 0;
-    head_vector_gaps(&t, a, b, gap);
+    head_vector_gaps(&t, a, b, NULL, gap);
     for (int k = 0; k < HEAD_GAP_COUNT; k++) most = fmax(most, gap[k].max_mm);
     return most;
 }
@@ -106,6 +106,20 @@ static void blocks_weigh_the_same(void **unused)
         assert_near(sum, b == HEAD_REST || b == HEAD_NEUTRAL ? 0.5 : 1, 1e-12);
     }
     free(w);
+}
+
+static void what_is_not_known_does_not_count(void **unused)
+{
+    (void)unused;
+    head_layout l = head_layout_of(&t);
+    double *known = NEW_ARRAY(double, l.start[HEAD_BLOCK_COUNT]);
+    head_gap all[HEAD_GAP_COUNT], some[HEAD_GAP_COUNT];
+    for (int i = l.start[HEAD_SKULL]; i < l.start[HEAD_MANDIBLE]; i++) known[i] = 1;
+    head_vector_gaps(&t, phi[0], phi[1], NULL, all);
+    head_vector_gaps(&t, phi[0], phi[1], known, some);
+    assert_near(some[HEAD_SKULL].mean_mm, all[HEAD_SKULL].mean_mm, 0);
+    assert_true(all[HEAD_FACE].mean_mm > 0 && isnan(some[HEAD_FACE].mean_mm) && isnan(some[HEAD_MANDIBLE].max_mm));
+    free(known);
 }
 
 static void heads_of_few_bends_are_made_of_few_numbers(void **unused)
@@ -287,6 +301,7 @@ int main(void)
         cmocka_unit_test(a_shape_comes_back_from_its_vector),
         cmocka_unit_test(where_a_head_lies_does_not_count_and_its_size_does),
         cmocka_unit_test(blocks_weigh_the_same),
+        cmocka_unit_test(what_is_not_known_does_not_count),
         cmocka_unit_test(heads_of_few_bends_are_made_of_few_numbers),
         cmocka_unit_test(a_model_comes_back_from_its_file_bit_for_bit),
         cmocka_unit_test(a_model_of_another_template_or_not_whole_is_refused_by_name),

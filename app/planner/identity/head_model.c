@@ -22,7 +22,7 @@ static bool leave_out(const head_template *t, const double *const *phi, const do
         task_progress(watch, "each head from the others", (double)s / count);
         head_gap gap[HEAD_GAP_COUNT];
         principal_left_out_make(&l, phi, length, s, made);
-        head_vector_gaps(t, made, phi[s], gap);
+        head_vector_gaps(t, made, phi[s], NULL, gap);
         for (int b = 0; b < HEAD_GAP_COUNT; b++) {
             m->left_out[b].mean_mm += gap[b].mean_mm / count;
             m->left_out[b].p95_mm += gap[b].p95_mm / count;

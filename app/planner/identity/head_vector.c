@@ -25,6 +25,8 @@ const char *head_gap_name(int block)
 
 const char *head_block_name(head_block b) { return head_gap_name((int)b); }
 
+int head_block_surface(head_block b) { return is_tissue(b) ? -1 : (int)surface_of[b]; }
+
 static int32_t vertices(const head_template *t, head_block b)
 {
     return is_tissue(b) ? t->tissue.mesh.vertex_count : t->part[surface_of[b]].vertex_count;
@@ -136,14 +138,15 @@ static int by_size(const void *a, const void *b)
 
 static head_gap summary(double *mm, int32_t count)
 {
-    if (!count) return (head_gap){0};
+    if (!count) return (head_gap){(double)NAN, (double)NAN, (double)NAN};
     double sum = 0;
     qsort(mm, (size_t)count, sizeof *mm, by_size);
     for (int32_t i = 0; i < count; i++) sum += mm[i];
     return (head_gap){sum / count, mm[(int32_t)(0.95 * (count - 1))], mm[count - 1]};
 }
 
-void head_vector_gaps(const head_template *t, const double *a, const double *b, head_gap out[HEAD_GAP_COUNT])
+void head_vector_gaps(const head_template *t, const double *a, const double *b, const double *known,
+                      head_gap out[HEAD_GAP_COUNT])
 {
     head_layout l = head_layout_of(t);
     for (int block = 0; block < HEAD_GAP_COUNT; block++) {
@@ -153,6 +156,7 @@ void head_vector_gaps(const head_template *t, const double *a, const double *b, 
         double *mm = NEW_ARRAY(double, count);
         for (int32_t i = 0; i < count; i++) {
             size_t at = (size_t)l.start[from] + 3 * (size_t)i;
+            if (known && !(known[at] > 0)) continue;
             if (!face || t->skin_on_tissue.tet[i] >= 0) mm[used++] = vec_distance(a + at, b + at);
         }
         out[block] = summary(mm, used);

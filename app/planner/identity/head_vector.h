@@ -16,6 +16,7 @@ typedef enum head_block {
 } head_block;
 
 const char *head_block_name(head_block b); /* "tissue at rest", ... */
+int head_block_surface(head_block b);      /* a case_surface; -1: tissue */
 
 typedef struct head_layout {
     int32_t start[HEAD_BLOCK_COUNT + 1]; /* first coordinate of each block; the last is the length */
@@ -38,6 +39,8 @@ typedef struct head_gap { /* between two heads of one numbering: of vertices to 
     double mean_mm, p95_mm, max_mm;
 } head_gap;
 enum { HEAD_FACE = HEAD_BLOCK_COUNT, HEAD_GAP_COUNT };
-/* For each block, and for the face: that part of the skin that hangs on the tissue. */
-void head_vector_gaps(const head_template *t, const double *a, const double *b, head_gap out[HEAD_GAP_COUNT]);
+/* For each block, and for the face: that part of the skin that hangs on the tissue. Vertices of which known[length] is
+ * 0 do not count; NULL: all do. NaN where none does. */
+void head_vector_gaps(const head_template *t, const double *a, const double *b, const double *known,
+                      head_gap out[HEAD_GAP_COUNT]);
 const char *head_gap_name(int block); /* of a block, or "face" */
