@@ -12,6 +12,7 @@
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
 #include "app/planner/bounds/audit_record.h"
+#include "app/planner/identity/fit_record.h"
 #include "app/planner/predict/outcome_record.h"
 #include "app/identities/identities.h"
 #include "app/study/record.h"
@@ -35,6 +36,7 @@ static const record_table *const all[] = {
     &outcome_table,      &audit_table,           &study_record_table,
     &study_ratios_table, &study_folder_table,    &template_record_table,
     &identities_table,   &identity_table,        &identity_made_table,
+    &fit_record_table,
 #endif
 #if GNATHOS_WITH_SIM
     &stress_table,

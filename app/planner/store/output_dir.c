@@ -19,7 +19,8 @@ static bool has(const char *folder, const char *name)
 static bool is_ours(const char *folder)
 {
     static const char *const records[] = {"outcome.json", "audit.json",    "comparison.json", "cut_report.json",
-                                          "stress.json",  "manifest.json", "identities.json", "identity.json"};
+                                          "stress.json",  "manifest.json", "identities.json", "identity.json",
+                                          "fit.json",     "template.json"};
     for (size_t i = 0; i < sizeof records / sizeof *records; i++)
         if (has(folder, records[i])) return true;
     return false;

@@ -1,0 +1,127 @@
+#include "app/pictures/fit.h"
+#include "geometry/mem.h"
+#include "render/compose.h"
+#include "render/gallery.h"
+#include "render/png_file.h"
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 1920, HEIGHT = 1080 };
+
+/* Skin, or bones and teeth in one; gap (may be NULL) the same way. */
+static surface fitted(const fit_pictures *p, bool bones, double **gap)
+{
+    surface all = {0};
+    double *distance = NULL;
+    for (int i = bones ? CASE_SKULL : CASE_SKIN; i < (bones ? CASE_SURFACE_COUNT : CASE_SKULL); i++) {
+        surface one = head_part(p->head, &p->fit->shape, (case_surface)i), sum = surface_joined(&all, &one);
+        distance = GROW_ARRAY(double, distance, sum.vertex_count);
+        memcpy(distance + all.vertex_count, p->fit->gap_mm[i], (size_t)one.vertex_count * sizeof *distance);
+        surface_free(&one);
+        surface_free(&all);
+        all = sum;
+    }
+    if (gap)
+        *gap = distance;
+    else
+        free(distance);
+    return all;
+}
+
+static surface scanned(const fit_pictures *p, bool bones)
+{
+    surface all = {0};
+    for (int i = bones ? CASE_SKULL : CASE_SKIN; i < (bones ? CASE_SURFACE_COUNT : CASE_SKULL); i++) {
+        surface sum = surface_joined(&all, &p->scan->part[i]);
+        surface_free(&all);
+        all = sum;
+    }
+    return all;
+}
+
+static bool frame_of(const fit_pictures *p, landmarks *points, head_frame *f, err *e)
+{
+    *points = head_points(p->head, &p->fit->shape);
+    bool ok = head_frame_from_landmarks(points, f, e);
+    if (!ok) landmarks_free(points);
+    return ok;
+}
+
+bool fit_residual_write(const fit_pictures *p, bool bones, double range_mm, const char *path, err *e)
+{
+    static const panel panels[] = {{SHOW_SIGNED, POSE_AFTER, 0, 0, 0, "Front"},
+                                   {SHOW_SIGNED, POSE_AFTER, 90, 0, 0, "Left profile"},
+                                   {SHOW_SIGNED, POSE_AFTER, -90, 0, 0, "Right profile"}};
+    const sheet what = {bones ? "Fitted bones and teeth against the scan" : "Fitted skin against the scan",
+                        panels,
+                        3,
+                        3,
+                        WIDTH,
+                        HEIGHT};
+    double *gap;
+    landmarks points;
+    subject s = {
+        .case_name = "", .plan_text = p->title, .signed_caption = "distance to the scan, mm; dark grey: no scan"};
+    if (!frame_of(p, &points, &s.frame, e)) return false;
+    surface shape = fitted(p, bones, &gap);
+    s.skin_before = s.skin_after = &shape;
+    s.signed_mm = gap;
+    s.before = s.after = &points;
+    gallery_style style = gallery_style_default();
+    style.signed_mm = range_mm;
+    style.labels = true;
+    gallery *g = NULL;
+    bool ok = gallery_open(&s, &style, &g, e) && gallery_write(g, &what, path, e);
+    gallery_close(&g);
+    landmarks_free(&points);
+    surface_free(&shape);
+    free(gap);
+    return ok;
+}
+
+/* Front and left profile of one surface. */
+static bool draw_pair(const surface *shape, const landmarks *points, const head_frame *frame, const char *caption,
+                      image out[2], err *e)
+{
+    subject s = {
+        .case_name = "", .skin_before = shape, .skin_after = shape, .before = points, .after = points, .frame = *frame};
+    gallery_style style = gallery_style_default();
+    gallery *g = NULL;
+    bool ok = gallery_open(&s, &style, &g, e);
+    for (int i = 0; ok && i < 2; i++) {
+        const panel one = {SHOW_SKIN, POSE_AFTER, i ? 90 : 0, 0, 0, caption};
+        const sheet what = {NULL, &one, 1, 1, WIDTH / 4, (HEIGHT - 60) / 2};
+        ok = gallery_draw(g, &what, &out[i], e);
+    }
+    gallery_close(&g);
+    return ok;
+}
+
+bool fit_beside_write(const fit_pictures *p, const char *path, err *e)
+{
+    landmarks points;
+    head_frame frame;
+    image tile[8] = {{0}};
+    if (!frame_of(p, &points, &frame, e)) return false;
+    bool ok = true;
+    for (int i = 0; ok && i < 4; i++) { /* scan: skin, bones; fitted: skin, bones */
+        surface shape = i < 2 ? scanned(p, i % 2) : fitted(p, i % 2, NULL);
+        if (shape.triangle_count)
+            ok = draw_pair(&shape, &points, &frame, i < 2 ? "scan" : "fitted template", tile + 2 * i, e);
+        else
+            for (int k = 2 * i; k < 2 * i + 2; k++) tile[k] = image_new(WIDTH / 4, (HEIGHT - 60) / 2);
+        surface_free(&shape);
+    }
+    compose_params params = compose_params_default();
+    params.columns = 4;
+    params.title = "The template on the patient";
+    params.subtitle = p->title;
+    compose_tile tiles[8];
+    for (int i = 0; i < 8; i++) tiles[i] = (compose_tile){&tile[i], NULL};
+    image whole = {0};
+    ok = ok && compose_sheet(tiles, 8, &params, &whole, e) && png_file_write(&whole, NULL, 0, path, e);
+    for (int i = 0; i < 8; i++) image_free(&tile[i]);
+    image_free(&whole);
+    landmarks_free(&points);
+    return ok;
+}

@@ -1,0 +1,118 @@
+#include "app/planner/identity/fit_record.h"
+#include <math.h>
+
+static const head_fit *fit_of(const void *of) { return ((const fit_record *)of)->fit; }
+
+double fit_guessed_share(const head_fit *f, case_surface part)
+{
+    const head_gaps *g = &f->gaps[part];
+    return g->vertices ? 1 - (double)g->with_target / g->vertices : 0;
+}
+
+bool fit_point_is_guessed(const fit_record *r, const head_point *p)
+{
+    if (p->triangle < 0) return fit_guessed_share(r->fit, (case_surface)p->part) > 0.5;
+    const int32_t *corner = r->head->part[p->part].tri + 3 * (size_t)p->triangle;
+    bool guessed = false;
+    for (int k = 0; k < 3; k++) guessed = guessed || r->fit->guessed[p->part][corner[k]];
+    return guessed;
+}
+
+static double turn(const void *of) { return rigid_angle(&fit_of(of)->place.motion) * 180 / M_PI; }
+static const void *motion(const void *of, void *space)
+{
+    rigid_to_matrix(&fit_of(of)->place.motion, space);
+    return space;
+}
+static double scale(const void *of) { return fit_of(of)->place.scale; }
+static const void *by_landmarks(const void *of, void *space)
+{
+    (void)space;
+    return &fit_of(of)->place.by_landmarks;
+}
+static double median(const void *of) { return fit_of(of)->place.median_mm; }
+static double turn_spread(const void *of) { return fit_of(of)->place.turn_spread_deg; }
+static double shift_spread(const void *of) { return fit_of(of)->place.shift_spread_mm; }
+static double min_j(const void *of) { return fit_of(of)->min_j; }
+static double inverted(const void *of) { return fit_of(of)->inverted_tets; }
+static double iterations(const void *of) { return fit_of(of)->iterations; }
+static double factorisations(const void *of) { return fit_of(of)->factorisations; }
+static double place_s(const void *of) { return fit_of(of)->place_s; }
+static double bones_s(const void *of) { return fit_of(of)->bones_s; }
+static double tissue_s(const void *of) { return fit_of(of)->tissue_s; }
+static double total_s(const void *of) { return fit_of(of)->total_s; }
+
+typedef struct part_fit {
+    bool scanned;
+    int vertices, with_target;
+    double guessed, mean, p95, max;
+} part_fit;
+static const record_row part_row[] = {
+    ROW(part_fit, scanned, "scanned", NULL, "whether the case has this surface; if not, all of it is guessed"),
+    ROW(part_fit, vertices, "vertices", NULL, "of the template"),
+    ROW(part_fit, with_target, "with_target", NULL, "of these, where the scan has a surface; the others are guessed"),
+    ROW(part_fit, guessed, "guessed_share", NULL, "share of the vertices that are guessed"),
+    ROW(part_fit, mean, "mean_mm", "mm", "distance to the scan, where it has a surface"),
+    ROW(part_fit, p95, "p95_mm", "mm", "the same, 95 % are nearer"),
+    ROW(part_fit, max, "max_mm", "mm", "the same, the farthest"),
+};
+static const record_table part_table = {.title = "How a part of the template lies on the scan", RECORD_ROWS(part_row)};
+
+static const void *next_part(const void *of, int *i, const char **key, void *space)
+{
+    if (*i == CASE_SURFACE_COUNT) return NULL;
+    const head_gaps *g = &fit_of(of)->gaps[*i];
+    bool any = g->with_target > 0;
+    part_fit *p = space;
+    *key = case_surface_name((case_surface)*i);
+    *p = (part_fit){.scanned = ((const fit_record *)of)->scan->part[*i].triangle_count > 0,
+                    .vertices = g->vertices,
+                    .with_target = g->with_target,
+                    .guessed = fit_guessed_share(fit_of(of), (case_surface)*i),
+                    .mean = any ? g->mean_mm : (double)NAN,
+                    .p95 = any ? g->p95_mm : (double)NAN,
+                    .max = any ? g->max_mm : (double)NAN};
+    return p;
+}
+
+static const void *next_guessed_point(const void *of, int *i, const char **key, void *space)
+{
+    const fit_record *r = of;
+    (void)key, (void)space;
+    while (*i < r->head->point_count && !fit_point_is_guessed(r, &r->head->point[*i])) (*i)++;
+    return *i < r->head->point_count ? r->head->point[*i].label : NULL;
+}
+
+static const char *template_numbering(const void *of, char *space)
+{
+    return (void)space, ((const fit_record *)of)->head->numbering;
+}
+
+static const record_row rows[] = {
+    ROW(fit_record, patient, "case", NULL, "path of the case"),
+    ROW_TEXT(template_numbering, "numbering", "of the template (gnathos template)"),
+    {.kind = RECORD_NUMBERS,
+     .length = 16,
+     .at = motion,
+     .name = "place.matrix",
+     .help = "x' = motion(scale x), from the template to the patient as a whole, row by row, LPS mm"},
+    ROW_FOUND(NUMBER, turn, "place.turn_deg", "deg", "angle of that motion"),
+    ROW_FOUND(NUMBER, scale, "place.scale", NULL, "size of the patient against the template"),
+    {.kind = RECORD_BOOL, .at = by_landmarks, .name = "place.by_landmarks", .help = "else by the surfaces alone"},
+    ROW_FOUND(NUMBER, median, "place.median_mm", "mm", "distance of the scan from the placed template"),
+    ROW_FOUND(NUMBER, turn_spread, "place.turn_spread_deg", "deg", "between starts that end about as well"),
+    ROW_FOUND(NUMBER, shift_spread, "place.shift_spread_mm", "mm", "between starts that end about as well"),
+    ROW(fit_record, told, "place.told", NULL, "what was found out of the ordinary, as other axes; or empty"),
+    ROW_MAP(next_part, "part", OBJECT, &part_table, "parts", NULL, "how each part lies on the scan"),
+    ROW_TEXTS(next_guessed_point, "guessed_landmarks", "labels that hang where the scan has nothing"),
+    ROW_FOUND(NUMBER, min_j, "tissue.min_j", NULL,
+              "smallest volume of a tet, at rest and neutral, against the template's at the patient's size"),
+    ROW_FOUND(NUMBER, inverted, "tissue.inverted_tets", NULL, "tets turned inside out; always 0"),
+    ROW_FOUND(NUMBER, iterations, "solve.iterations", NULL, "of all solves"),
+    ROW_FOUND(NUMBER, factorisations, "solve.factorisations", NULL, "of all solves"),
+    ROW_FOUND(NUMBER, place_s, "seconds.place", "s", "wall time of finding the place"),
+    ROW_FOUND(NUMBER, bones_s, "seconds.bones", "s", "wall time of bending the whole, the bones and the teeth"),
+    ROW_FOUND(NUMBER, tissue_s, "seconds.tissue", "s", "wall time of tissue and skin"),
+    ROW_FOUND(NUMBER, total_s, "seconds.total", "s", "wall time of the fit"),
+};
+const record_table fit_record_table = {.kind = "fit", .title = "Record of gnathos fit", RECORD_ROWS(rows)};
