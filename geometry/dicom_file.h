@@ -13,7 +13,8 @@ typedef struct dicom_series {
 
 /* Reads the headers of all slices in the folder (not below it). Refuses (ERR_INPUT, with the file) a folder without
  * slices or with several series, slices without a place or of other directions, a gantry that was tilted, slices that
- * are missing, doubled or unevenly spaced, encodings that are not read (big endian, deflated). */
+ * are missing, doubled or unevenly spaced, signed voxels in fewer bits than their words (dcm2niix misreads them),
+ * encodings that are not read (big endian, deflated). */
 bool dicom_check(const char *folder, dicom_series *out, err *e) MUST_CHECK;
 /* dicom_check, then the volume. Refuses (ERR_RESOURCE) where dcm2niix is not installed, (ERR_INPUT) what it cannot make
  * one volume of. The caller frees *out. */

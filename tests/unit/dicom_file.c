@@ -48,6 +48,7 @@ typedef struct odd { /* what is unlike a sound series */
     const char *tilt, *syntax, *series;
     double shear_mm, gap_mm; /* per slice; before the last */
     bool no_place, one_place;
+    int stored; /* bits of a voxel; 0: 16, all there are */
 } odd;
 
 /* Voxel (i, j) of slice k holds -1000 + i + 10 j + 100 k and lies at (-10 + 0.5 i, -20 + 0.5 j, 30 + 1.25 k). */
@@ -79,8 +80,8 @@ static void write_slice(const char *folder, int k, const odd *o)
     put_short(&f, 0x28, 0x11, SIDE);
     put_text(&f, 0x28, 0x30, "DS", "0.5\\0.5");
     put_short(&f, 0x28, 0x100, 16);
-    put_short(&f, 0x28, 0x101, 16);
-    put_short(&f, 0x28, 0x102, 15);
+    put_short(&f, 0x28, 0x101, o->stored ? o->stored : 16);
+    put_short(&f, 0x28, 0x102, (o->stored ? o->stored : 16) - 1);
     put_short(&f, 0x28, 0x103, 1);
     put_text(&f, 0x28, 0x1052, "DS", "-1000");
     put_text(&f, 0x28, 0x1053, "DS", "1");
@@ -123,6 +124,7 @@ static void what_would_be_read_wrong_is_refused(void **state)
                {{.gap_mm = -1.25}, "some are missing, doubled or uneven"},
                {{.one_place = true}, "all 5 slices lie at one place"},
                {{.series = "1.2.3.5"}, "holds more than one series"},
+               {{.stored = 12}, "BitsStored: 12 of 16 bits hold signed values"},
                {{.no_place = true}, "does not say where its slice lies"},
                {{.syntax = "1.2.840.10008.1.2.2"}, "is of an encoding that is not read"}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

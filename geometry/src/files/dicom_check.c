@@ -17,7 +17,8 @@ static const double tilt_most_deg = 0.1, uneven_most_mm = 0.02;
 typedef struct slice {
     char name[256], series[72];
     double place[3], along[6], tilt_deg, height;
-    bool has_place, has_along;
+    bool has_place, has_along, is_signed;
+    int bits_allocated, bits_stored; /* of a voxel; 0: not said */
 } slice;
 
 typedef struct bytes {
@@ -100,7 +101,7 @@ static const char *read_elements(bytes b, slice *s)
                 return "is of an encoding that is not read (big endian or deflated)";
             b.explicit_type = strcmp(syntax, "1.2.840.10008.1.2") != 0;
         }
-        if (!next_element(&b, &e) || e.tag > 0x00280030) return NULL;
+        if (!next_element(&b, &e) || e.tag > 0x00280103) return NULL;
         if (e.length == UNKNOWN_LENGTH) {
             if (!skip_unknown(&b, 0)) return "has a broken header";
             continue;
@@ -112,10 +113,16 @@ static const char *read_elements(bytes b, slice *s)
         if (e.tag == 0x00181120 && e.length && !read_numbers(&b, e.length, tilt, 1)) return "has a broken gantry tilt";
         if (e.tag == 0x00200032) s->has_place = read_numbers(&b, e.length, s->place, 3);
         if (e.tag == 0x00200037) s->has_along = read_numbers(&b, e.length, s->along, 6);
+        if (e.tag == 0x00280100 && e.length >= 2) s->bits_allocated = (int)number_at(b.at, NUMBER_U16, false);
+        if (e.tag == 0x00280101 && e.length >= 2) s->bits_stored = (int)number_at(b.at, NUMBER_U16, false);
+        if (e.tag == 0x00280103 && e.length >= 2) s->is_signed = number_at(b.at, NUMBER_U16, false) > 0;
         b.at += e.length;
     }
     return NULL;
 }
+
+/* dcm2niix takes such voxels below zero for large ones: findings/dcm2niix_signed_stored_bits.sh. */
+static bool is_misread(const slice *s) { return s->is_signed && s->bits_stored && s->bits_stored < s->bits_allocated; }
 
 /* *is_slice false: not DICOM, or the folder's directory. */
 static bool read_slice(const char *folder, const char *name, slice *s, bool *is_slice, err *e)
@@ -133,6 +140,11 @@ static bool read_slice(const char *folder, const char *name, slice *s, bool *is_
     if (!in) return false;
     if (*is_slice && !wrong && (!s->has_place || !s->has_along))
         wrong = "does not say where its slice lies (ImagePositionPatient, ImageOrientationPatient)";
+    if (!wrong && *is_slice && is_misread(s))
+        return err_at(e, ERR_INPUT, path, 0, "BitsStored",
+                      "%d of %d bits hold signed values: dcm2niix would turn air into metal; convert the series with "
+                      "dicomtonifti and import that",
+                      s->bits_stored, s->bits_allocated);
     return !wrong || err_at(e, ERR_INPUT, path, 0, NULL, "%s", wrong);
 }
 
