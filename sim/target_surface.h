@@ -22,8 +22,8 @@ typedef struct target_point {
 } target_point;
 
 /* Distance from p, whose own surface has the unit normal n there (NULL: any will do), to the nearest point of the
- * surface, mm. HUGE_VAL where p belongs nowhere: nothing is within reach, what is nearest looks another way, or is the
- * open border, so that the surface might go on there. */
+ * surface that looks the same way, mm. HUGE_VAL where p belongs nowhere: nothing of the kind is within reach, or it is
+ * the open border, so that the surface might go on there. */
 double target_surface_ask(const target_surface *t, const double p[3], const double n[3], const target_rules *rules,
                           target_point *out);
 

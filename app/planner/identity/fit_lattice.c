@@ -62,7 +62,7 @@ bool fit_lattice_draw(const fit_lattice *f, fit_cost *cost, err *e)
         return false;
     for (int p = 0; p < f->part_count; p++) {
         in[p] = carry(&body, f->moved[p]->xyz, f->moved[p]->vertex_count);
-        part[p] = (registration_part){f->moved[p], &in[p], f->target[p], NULL, f->weight[p]};
+        part[p] = (registration_part){f->moved[p], &in[p], f->target[p], f->mute[p], f->weight[p]};
     }
     registration_problem problem = {.body = &body, .part_count = f->part_count, .part = part};
     registration_anchors anchors;

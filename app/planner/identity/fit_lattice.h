@@ -12,6 +12,7 @@ typedef struct fit_lattice {
     surface *moved[FIT_LATTICE_PARTS];               /* where they are now; their vertices move */
     const target_surface *target[FIT_LATTICE_PARTS]; /* NULL: only carried */
     double weight[FIT_LATTICE_PARTS];
+    const uint8_t *mute[FIT_LATTICE_PARTS]; /* [vertices] 1: only carried; NULL: none is */
     const double *fixed; /* [3*vertices] places of part 0's vertices that are known, NAN: not known; or NULL */
     double *points;      /* [3*point_count] points that are carried too, or NULL */
     int32_t point_count;

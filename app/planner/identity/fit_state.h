@@ -11,10 +11,13 @@ typedef struct fit_state {
     surface at[CASE_SURFACE_COUNT];             /* the template's parts where they are now */
     surface placed[CASE_SURFACE_COUNT];         /* and before they were bent */
     double *nodes, *placed_nodes;               /* [3*nodes] of the tissue at neutral, the same two */
+    uint8_t *buried[CASE_SURFACE_COUNT];        /* [vertices] of teeth: 1 in the bone or next to it; else NULL */
     fit_cost cost;
 } fit_state;
 
 /* fit_bones.c: bends all as one, then each bone on its own, and lets the teeth follow. */
+/* 1 for each vertex of the teeth that lies in its jaw or next to it; the caller frees. */
+uint8_t *fit_buried(const surface *teeth, const surface *jaw);
 bool fit_bend(fit_state *f, err *e) MUST_CHECK;
 bool fit_bones(fit_state *f, err *e) MUST_CHECK;
 /* fit_tissue.c: the tissue between the bones where they are now and the patient's skin, then the skin: what hangs in

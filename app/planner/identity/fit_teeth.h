@@ -4,11 +4,9 @@
 #include "geometry/surface.h"
 #include "sim/target_surface.h"
 
-/* The least squares of xyz -> to over points with weight > 0: x' = scale R x + shift. Fewer than three of them, or all
- * on a line: a shift alone. */
-similarity similarity_fit(const double *from, const double *to, const double *weight, int32_t count);
-
 /* moved: the teeth where the jaw has carried them, `as` of the template; each goes to the similarity that fits its
- * carried vertices best, then, where there is a target (else NULL), in a few rounds to what of it is nearest.
- * tooth[vertices]: its number. Each keeps its size within a tenth of the jaw's. */
-void fit_teeth(const surface *as, const int32_t *tooth, const target_surface *target, surface *moved);
+ * carried vertices best, then, where there is a target (else NULL), in a few rounds to what of it is nearest to its
+ * crown: the vertices that are not buried[vertices]. tooth[vertices]: its number. Each keeps its size within a tenth of
+ * the jaw's. */
+void fit_teeth(const surface *as, const int32_t *tooth, const uint8_t *buried, const target_surface *target,
+               surface *moved);

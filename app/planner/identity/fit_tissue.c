@@ -99,7 +99,7 @@ bool fit_tissue(fit_state *f, err *e)
     how.stages = 4;
     how.rounds = 3;
     how.soft_mm = 20;
-    how.stiff_mm = 0.5;
+    how.stiff_mm = 1;
     how.reach_first_mm = 12;
     how.reach_mm = 5;
     how.interrupted = is_stopped;
@@ -138,7 +138,7 @@ bool fit_skin(fit_state *f, err *e)
     l.how.stages = 4;
     l.how.rounds = 3;
     l.how.soft_mm = 30;
-    l.how.stiff_mm = 0.5;
+    l.how.stiff_mm = 1;
     l.how.reach_first_mm = 12;
     l.how.reach_mm = 5;
     bool ok = fit_lattice_draw(&l, &f->cost, e);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* What of the patient a vertex of the fitted template is measured against. */
-static const target_rules measured = {10, 0.5};
+static const target_rules measured = {5, 0.5};
 
 head_fit_params head_fit_params_default(void)
 {
@@ -35,6 +35,8 @@ static fit_state begin(const head_template *t, const head_scan *s, const head_fi
         head_place_apply(place, t->part[p].xyz, t->part[p].vertex_count, f.placed[p].xyz);
         f.at[p] = surface_copy(&f.placed[p]);
     }
+    f.buried[CASE_UPPER_TEETH] = fit_buried(&t->part[CASE_UPPER_TEETH], &t->part[CASE_SKULL]);
+    f.buried[CASE_LOWER_TEETH] = fit_buried(&t->part[CASE_LOWER_TEETH], &t->part[CASE_MANDIBLE]);
     f.placed_nodes = NEW_ARRAY(double, n);
     head_place_apply(place, t->tissue.mesh.xyz, t->tissue.mesh.vertex_count, f.placed_nodes);
     f.nodes = COPY_ARRAY(double, f.placed_nodes, n);
@@ -47,6 +49,7 @@ static void end(fit_state *f)
         target_surface_free(&f->target[p]);
         surface_free(&f->at[p]);
         surface_free(&f->placed[p]);
+        free(f->buried[p]);
     }
     free(f->nodes);
     free(f->placed_nodes);

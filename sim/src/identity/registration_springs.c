@@ -194,7 +194,8 @@ int32_t registration_springs_give(registration_springs *s, const double *x, doub
     if (count) spread(m, node);
     for (size_t k = 0; count && k < (size_t)s->t.count; k++) {
         const int32_t *v = m->tet + 4 * (size_t)s->t.tet[k];
-        if (node[v[0]] | node[v[1]] | node[v[2]] | node[v[3]]) s->give[k] = fmax(s->give[k] / 4, least_give);
+        if (node[v[0]] | node[v[1]] | node[v[2]] | node[v[3]])
+            s->give[k] = fmax(s->give[k] / (s->part[k] < 0 ? 8 : 2), least_give);
     }
     free(node);
     return count;

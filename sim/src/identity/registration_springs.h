@@ -23,7 +23,8 @@ registration_springs registration_springs_make(const registration_problem *probl
 void registration_springs_free(registration_springs *s);
 /* Places, normals and stiffnesses for the body at x[3*nodes]. */
 void registration_springs_aim(registration_springs *s, const registration_round *round, const double *x);
-/* Springs within two tets of one whose det F at x is below min_j get a quarter; returns how many tets there are. */
+/* Springs within two tets of one whose det F at x is below min_j give way, anchors to an eighth and others to a
+ * half; returns how many tets there are. */
 int32_t registration_springs_give(registration_springs *s, const double *x, double min_j);
 /* The smallest det F; *inverted (may be NULL): how many are not above 0. */
 double registration_min_j(const tetmesh *body, const double *x, int32_t *inverted);

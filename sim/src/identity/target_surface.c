@@ -3,9 +3,16 @@
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
+#include <string.h>
+
+/* Triangles are sorted by where they look: into the nearest of the 26 directions to the neighbours of a cube, at most
+ * cone_deg away, so that a thin plate's far side does not hide the near one. */
+enum { DIRECTIONS = 26 };
+static const double cone_deg = 28;
 
 struct target_surface {
-    distance_tree *tree;
+    distance_tree *tree[DIRECTIONS]; /* NULL: none looks there */
+    int32_t *triangle[DIRECTIONS];   /* of the surface, for each of the tree's */
     surface s;
     double *normal;  /* [3*vertices] */
     uint8_t *border; /* [vertices] 1: on an edge that only one triangle has */
@@ -42,22 +49,72 @@ static void mark_border(target_surface *t)
     free(edge);
 }
 
+static void direction(int k, double out[3])
+{
+    k += k >= DIRECTIONS / 2; /* leaving out the middle */
+    out[0] = k % 3 - 1;
+    out[1] = k / 3 % 3 - 1;
+    out[2] = k / 9 - 1;
+    vec_normalize(out);
+}
+
+static int looks(const surface *s, size_t triangle)
+{
+    const int32_t *v = s->tri + 3 * triangle;
+    double a[3], b[3], n[3], d[3], most = -HUGE_VAL;
+    int best = 0;
+    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], a);
+    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], b);
+    vec_cross(a, b, n);
+    for (int k = 0; k < DIRECTIONS; k++) {
+        direction(k, d);
+        if (vec_dot(n, d) <= most) continue;
+        most = vec_dot(n, d);
+        best = k;
+    }
+    return best;
+}
+
+static void sort_by_direction(target_surface *t)
+{
+    size_t count = (size_t)t->s.triangle_count;
+    uint8_t *where = NEW_ARRAY(uint8_t, count);
+    for (size_t i = 0; i < count; i++) where[i] = (uint8_t)looks(&t->s, i);
+    for (int k = 0; k < DIRECTIONS; k++) {
+        surface part = t->s; /* its vertices, some of its triangles */
+        part.tri = NEW_ARRAY(int32_t, 3 * count);
+        part.triangle_count = 0;
+        t->triangle[k] = NEW_ARRAY(int32_t, count);
+        for (size_t i = 0; i < count; i++) {
+            if (where[i] != k) continue;
+            memcpy(part.tri + 3 * (size_t)part.triangle_count, t->s.tri + 3 * i, 3 * sizeof *part.tri);
+            t->triangle[k][part.triangle_count++] = (int32_t)i;
+        }
+        if (part.triangle_count) t->tree[k] = distance_tree_make(&part);
+        free(part.tri);
+    }
+    free(where);
+}
+
 target_surface *target_surface_make(const surface *s)
 {
     target_surface *t = NEW_ARRAY(target_surface, 1);
-    *t = (target_surface){.tree = distance_tree_make(s),
-                          .s = surface_copy(s),
+    *t = (target_surface){.s = surface_copy(s),
                           .normal = surface_vertex_normals(s),
                           .border = NEW_ARRAY(uint8_t, s->vertex_count),
                           .open = NEW_ARRAY(uint8_t, s->triangle_count)};
     mark_border(t);
+    sort_by_direction(t);
     return t;
 }
 
 void target_surface_free(target_surface **t)
 {
     if (!*t) return;
-    distance_tree_free(&(*t)->tree);
+    for (int k = 0; k < DIRECTIONS; k++) {
+        distance_tree_free(&(*t)->tree[k]);
+        free((*t)->triangle[k]);
+    }
     surface_free(&(*t)->s);
     free((*t)->normal);
     free((*t)->border);
@@ -92,19 +149,40 @@ static bool is_open(const target_surface *t, int32_t triangle, const int32_t *v,
     return false;
 }
 
+/* Of a place of the surface. */
+static void fill(const target_surface *t, const distance_hit *hit, target_point *out, double w[3])
+{
+    const int32_t *v = t->s.tri + 3 * (size_t)hit->triangle;
+    corner_weights(&t->s, v, hit->at, w);
+    vec_scale(t->normal + 3 * (size_t)v[0], w[0], out->normal);
+    for (int k = 1; k < 3; k++) vec_axpy(out->normal, w[k], t->normal + 3 * (size_t)v[k], out->normal);
+    vec_normalize(out->normal);
+    vec_copy(hit->at, out->at);
+    out->triangle = hit->triangle;
+}
+
 double target_surface_ask(const target_surface *t, const double p[3], const double n[3], const target_rules *rules,
                           target_point *out)
 {
-    distance_hit hit;
-    double d = distance_tree_between(t->tree, p, 0, rules->reach_mm, &hit), w[3];
-    if (!(d < rules->reach_mm)) return HUGE_VAL;
-    const int32_t *v = t->s.tri + 3 * (size_t)hit.triangle;
-    corner_weights(&t->s, v, hit.at, w);
-    if (is_open(t, hit.triangle, v, w)) return HUGE_VAL;
-    vec_scale(t->normal + 3 * (size_t)v[0], w[0], out->normal);
-    for (int k = 1; k < 3; k++) vec_axpy(out->normal, w[k], t->normal + 3 * (size_t)v[k], out->normal);
-    if (!(vec_normalize(out->normal) > 0) || (n && vec_dot(n, out->normal) < rules->facing_cos)) return HUGE_VAL;
-    vec_copy(hit.at, out->at);
-    out->triangle = hit.triangle;
-    return d;
+    const double pi = acos(-1.0);
+    double best = rules->reach_mm, w[3],
+           least = cos(fmin(pi, acos(fmax(-1, fmin(1, rules->facing_cos))) + cone_deg * pi / 180));
+    bool found = false, open = false;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        double d[3];
+        distance_hit hit;
+        target_point here;
+        direction(k, d);
+        if (!t->tree[k] || (n && vec_dot(n, d) < least)) continue;
+        double far = distance_tree_between(t->tree[k], p, 0, best, &hit);
+        if (!(far < best)) continue;
+        hit.triangle = t->triangle[k][hit.triangle];
+        fill(t, &hit, &here, w);
+        if (n && vec_dot(n, here.normal) < rules->facing_cos) continue;
+        best = far;
+        *out = here;
+        found = true;
+        open = is_open(t, hit.triangle, t->s.tri + 3 * (size_t)hit.triangle, w);
+    }
+    return found && !open ? best : HUGE_VAL;
 }
