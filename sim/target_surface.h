@@ -7,7 +7,8 @@ extern "C" {
 
 typedef struct target_surface target_surface; /* queries are const and thread-safe */
 
-/* Copies what it needs of s, which may be open, torn or empty. */
+/* Copies what it needs of s, which may be open, torn or empty. A plane piece of it, 400 mm^2 or more, is where a scan
+ * was cut: what lies nearest to it lies on the open border. */
 target_surface *target_surface_make(const surface *s);
 void target_surface_free(target_surface **t); /* idempotent */
 

@@ -7,7 +7,7 @@
 
 /* Triangles are sorted by where they look: into the nearest of the 26 directions to the neighbours of a cube, at most
  * cone_deg away, so that a thin plate's far side does not hide the near one. */
-enum { DIRECTIONS = 26 };
+enum { DIRECTIONS = 26, CUT = 8 };
 static const double cone_deg = 28;
 
 struct target_surface {
@@ -15,8 +15,8 @@ struct target_surface {
     int32_t *triangle[DIRECTIONS];   /* of the surface, for each of the tree's */
     surface s;
     double *normal;  /* [3*vertices] */
-    uint8_t *border; /* [vertices] 1: on an edge that only one triangle has */
-    uint8_t *open;   /* [triangles] bit k: the edge opposite corner k is such a one */
+    uint8_t *border; /* [vertices] 1: on an edge that only one triangle has, or a cut */
+    uint8_t *open;   /* [triangles] bit k: the edge opposite corner k is such a one; CUT: the whole is a cut */
 };
 
 typedef struct half_edge {
@@ -30,21 +30,74 @@ static int by_ends(const void *a, const void *b)
     return (p->high > q->high) - (p->high < q->high);
 }
 
-static void mark_border(target_surface *t)
+static void unit_normal(const surface *s, size_t triangle, double n[3], double *mm2)
 {
-    size_t count = 3 * (size_t)t->s.triangle_count;
+    const int32_t *v = s->tri + 3 * triangle;
+    double a[3], b[3];
+    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], a);
+    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], b);
+    vec_cross(a, b, n);
+    *mm2 = vec_normalize(n) / 2;
+}
+
+static half_edge *sorted_edges(const surface *s, size_t count)
+{
     half_edge *edge = NEW_ARRAY(half_edge, count);
     for (size_t i = 0; i < count; i++) {
         size_t first = i / 3 * 3;
-        int32_t a = t->s.tri[first + (i + 1) % 3], b = t->s.tri[first + (i + 2) % 3];
+        int32_t a = s->tri[first + (i + 1) % 3], b = s->tri[first + (i + 2) % 3];
         edge[i] = (half_edge){a < b ? a : b, a < b ? b : a, (int32_t)(i / 3), (int32_t)(i % 3)};
     }
     qsort(edge, count, sizeof *edge, by_ends);
+    return edge;
+}
+
+static int32_t root_of(int32_t *parent, int32_t i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+/* Marks the triangles of plane pieces of flat_mm2 and more: where the scan was cut. */
+static void mark_cuts(target_surface *t, const half_edge *edge, size_t count)
+{
+    static const double flat_mm2 = 400, even_cos = 1 - 1e-5; /* a quarter of a degree from triangle to triangle */
+    size_t n = (size_t)t->s.triangle_count;
+    int32_t *parent = NEW_ARRAY(int32_t, n);
+    double *mm2 = NEW_ARRAY(double, n);
+    for (size_t i = 0; i < n; i++) parent[i] = (int32_t)i;
+    for (size_t i = 0; i + 1 < count; i++) {
+        double p[3], q[3], area;
+        if (by_ends(&edge[i], &edge[i + 1]) != 0) continue;
+        unit_normal(&t->s, (size_t)edge[i].triangle, p, &area);
+        unit_normal(&t->s, (size_t)edge[i + 1].triangle, q, &area);
+        int32_t a = root_of(parent, edge[i].triangle), b = root_of(parent, edge[i + 1].triangle);
+        if (vec_dot(p, q) > even_cos) parent[a > b ? a : b] = a < b ? a : b;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double p[3], area;
+        unit_normal(&t->s, i, p, &area);
+        mm2[root_of(parent, (int32_t)i)] += area;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (mm2[root_of(parent, (int32_t)i)] >= flat_mm2) t->open[i] = CUT;
+    free(parent);
+    free(mm2);
+}
+
+/* Edges that only one triangle has, or only one that is no cut. */
+static void mark_border(target_surface *t)
+{
+    size_t count = 3 * (size_t)t->s.triangle_count;
+    half_edge *edge = sorted_edges(&t->s, count);
+    mark_cuts(t, edge, count);
     for (size_t i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && by_ends(&edge[i], &edge[end]) == 0; end++) {}
-        if (end > i + 1) continue;
-        t->open[edge[i].triangle] |= (uint8_t)(1 << edge[i].corner);
+        size_t whole = 0;
+        for (end = i; end < count && by_ends(&edge[i], &edge[end]) == 0; end++)
+            whole += t->open[edge[end].triangle] < CUT;
+        if (whole != 1) continue;
         t->border[edge[i].low] = t->border[edge[i].high] = 1;
+        for (size_t k = i; k < end; k++) t->open[edge[k].triangle] |= (uint8_t)(1 << edge[k].corner);
     }
     free(edge);
 }
@@ -60,12 +113,9 @@ static void direction(int k, double out[3])
 
 static int looks(const surface *s, size_t triangle)
 {
-    const int32_t *v = s->tri + 3 * triangle;
-    double a[3], b[3], n[3], d[3], most = -HUGE_VAL;
+    double n[3], d[3], mm2, most = -HUGE_VAL;
     int best = 0;
-    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], a);
-    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], b);
-    vec_cross(a, b, n);
+    unit_normal(s, triangle, n, &mm2);
     for (int k = 0; k < DIRECTIONS; k++) {
         direction(k, d);
         if (vec_dot(n, d) <= most) continue;
@@ -144,6 +194,7 @@ static void corner_weights(const surface *s, const int32_t *v, const double p[3]
 static bool is_open(const target_surface *t, int32_t triangle, const int32_t *v, const double w[3])
 {
     static const double on = 1e-6;
+    if (t->open[triangle] >= CUT) return true;
     for (int k = 0; k < 3; k++)
         if ((w[k] < on && t->open[triangle] >> k & 1) || (w[k] > 1 - on && t->border[v[k]])) return true;
     return false;
