@@ -128,7 +128,7 @@ bool fit_skin(fit_state *f, err *e)
     embedding_apply(on, &f->t->tissue.mesh, u, f->placed[CASE_SKIN].xyz, known);
     for (size_t i = 0; i < count; i++)
         if (on->tet[i / 3] < 0) known[i] = (double)NAN;
-    fit_lattice l = {.edge_mm = 10,
+    fit_lattice l = {.edge_mm = 7,
                      .how = registration_params_default(),
                      .part_count = 1,
                      .moved = {skin},
