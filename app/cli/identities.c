@@ -33,7 +33,7 @@ static const char about[] =
     "  show MODEL [-o DIR]      variance of each mode, error of heads left out; pictures of mean and modes\n"
     "  project MODEL CASE       coefficients of a head, and what the model makes of it; -o DIR: an error map\n"
     "  make MODEL -o CASE       a new head, of --p or --random, as a case that predict takes\n\n"
-    "learn keeps the fits in MODEL.journal while it runs: after an interruption the same command goes on from there.";
+    "CASE may be a folder of gnathos fit: what it holds is not fitted again. learn keeps the fits in MODEL.journal while it runs: after an interruption the same command goes on from there.";
 
 typedef enum word { LEARN, SHOW, PROJECT, MAKE, WORDS } word;
 static const char *const word_name[WORDS] = {"learn", "show", "project", "make"};

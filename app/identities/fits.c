@@ -1,14 +1,25 @@
 #include "app/identities/fits.h"
+#include "app/planner/identity/fit_file.h"
 #include "geometry/mem.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const double guessed_told = 0.1;
+
+static bool is_fit(const char *path, char pack[FIELD_PATH_SIZE])
+{
+    snprintf(pack, FIELD_PATH_SIZE, "%s/fit.pack", path);
+    return !access(pack, F_OK);
+}
 
 bool fits_case(const head_template *t, const char *path, const task *watch, head_fit *out, char *name, size_t name_size,
                err *e)
 {
+    char pack[FIELD_PATH_SIZE];
+    snprintf(name, name_size, "%s", path);
+    if (is_fit(path, pack)) return head_fit_read(t, pack, out, e);
     case_file c;
     head_scan scan = {0};
     head_fit_params p = head_fit_params_default();
@@ -77,6 +88,8 @@ static bool shape_of(void *context, int32_t i, head_shape *out, err *e)
 /* All that a fit depends on. */
 static bool hash_case(content_hash *h, const char *path, err *e)
 {
+    char pack[FIELD_PATH_SIZE];
+    if (is_fit(path, pack)) return content_hash_file(h, "fit", pack, e);
     case_file c;
     if (!case_file_load(path, &c, e)) return false;
     for (int i = 0; i < CASE_SURFACE_COUNT; i++)

@@ -4,7 +4,8 @@
 #include "app/planner/identity/head_fit.h"
 #include "cases/norm_head/norm_head.h"
 
-/* The template on the head of a case, in its frame. The caller frees *out. */
+/* The template on the head of a case, in its frame; where `path` is a folder of gnathos fit, the fit that it holds. The
+ * caller frees *out. */
 bool fits_case(const head_template *t, const char *path, const task *watch, head_fit *out, char *name, size_t name_size,
                err *e) MUST_CHECK;
 /* Share of the vertices of a part that the fit guessed. */

@@ -36,7 +36,7 @@ typedef struct identities_projection {
     double *phi, *made, *known; /* owned; [length] known: 0 where the fit guessed */
 } identities_projection;
 
-/* The head of a case in the template, and what the model makes of it. */
+/* The head of a case, or of a folder of gnathos fit, in the template, and what the model makes of it. */
 bool identities_project(const head_template *t, const head_model *m, const char *path, const task *watch,
                         identities_projection *out, err *e) MUST_CHECK;
 void identities_projection_free(identities_projection *p);

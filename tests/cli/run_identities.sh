@@ -5,12 +5,24 @@ set -eu
 gnathos=$1 bent=$2 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
 cd "$work"
-"$bent" bent.model
+mkdir fits
+"$bent" bent.model fits
 "$gnathos" identities show bent.model --json >show.json
 "$gnathos" identities make bent.model --p 1,-1.5 -o head --json >head.json
 "$gnathos" identities make bent.model --random --seed 4 -o random --json >random.json
 "$gnathos" identities make bent.model --random --seed 4 -o again -q >/dev/null
-/usr/bin/python3 "$here/check_record.py" "$gnathos" show.json head.json random.json
+"$gnathos" identities learn fits/* -o learnt.model --json >learnt.json
+[ ! -e learnt.model.journal ] || { echo "the journal of finished work stays"; exit 1; }
+"$gnathos" identities project bent.model fits/wide --json >wide.json
+/usr/bin/python3 "$here/check_record.py" "$gnathos" show.json head.json random.json learnt.json wide.json
+/usr/bin/python3 - <<'PY'
+import json
+show, learnt, wide = (json.load(open(n + ".json")) for n in ("show", "learnt", "wide"))
+assert learnt["heads"] == learnt["fitted"] == 7 and learnt["refused"] == 0
+for a, b in zip(show["modes"], learnt["modes"]): assert abs(a["sd_mm"] - b["sd_mm"]) < 1e-9, (a, b)
+assert all(part["max_mm"] < 1e-6 for part in wide["error"].values()), wide["error"]
+assert max(abs(p) for p in wide["p"]) > 0.5 and wide["guessed"] == 0
+PY
 for file in skin.ply skull.ply mandible.ply upper_teeth.ply lower_teeth.ply landmarks.mrk.json; do
     cmp random/$file again/$file || { echo "the same seed gives another $file"; exit 1; }
 done
@@ -25,9 +37,10 @@ refused() { # STATUS WORDS COMMAND...: in this way
     [ "$got" = "$status" ] && grep -qF "$words" stderr || { echo "$*: $got: $(cat stderr), not $status: $words"; exit 1; }
 }
 refused 3 'is not an empty folder' make bent.model --p 1 -o head
+refused 2 'fits/wide is named twice' learn fits/wide fits/long fits/wide -o two.model
 refused 2 'p[0] is 4: -3 to 3 standard deviations are heads' make bent.model --p 4 -o new
 refused 3 'none.model: cannot be read: No such file or directory' show none.model
 head -c 100000 bent.model >torn.model
 refused 3 'torn.model: is not a whole model of identities' show torn.model
 refused 3 'head/case.json: is not a whole model of identities' make head/case.json --random -o new
-[ ! -e new ] || { echo "what was refused left a folder"; exit 1; }
+[ ! -e new ] && [ ! -e two.model ] || { echo "what was refused left a folder"; exit 1; }
