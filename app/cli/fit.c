@@ -17,6 +17,8 @@ enum { KEY_NO_LANDMARKS = KEY_OWN, KEY_NO_PICTURES };
 
 static const double range_mm = 2; /* end of the colours: beyond the 1.5 mm that 95 % of a good fit lie within */
 
+static const double told_share = 0.05; /* of a part that is guessed: more is warned of */
+
 static const struct argp_option options[] = {OPTION_OUTPUT("The folder of results, which must not exist yet"),
                                              OPTION_FORCE,
                                              {"no-landmarks", KEY_NO_LANDMARKS, NULL, 0,
@@ -83,6 +85,17 @@ static bool write_all(run_context *r, const fit_record *of, const json_t *record
     return ok;
 }
 
+static void warn(const run_context *r, const fit_record *of)
+{
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+        double share = fit_guessed_share(of->fit, (case_surface)p);
+        if (share > told_share)
+            command_note(&r->common, "%s: warning: %.0f %% of it is guessed from the template: the scan has %s",
+                         case_surface_name((case_surface)p), 100 * share,
+                         of->scan->part[p].triangle_count ? "nothing there" : "no such surface");
+    }
+}
+
 static void print_plain(const run_context *r, const fit_record *of)
 {
     const head_fit *f = of->fit;
@@ -113,6 +126,7 @@ static bool run(run_context *r, err *e)
     char told[256] = "";
     bool ok = head_template_get(&r->watch, &t, NULL, e) && fit(r, &t, &s, &f, told, e);
     const fit_record of = {r->argument[0], &t, &s, &f, told};
+    if (ok) warn(r, &of);
     json_t *record = ok ? record_json(&fit_record_table, &of) : NULL;
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
     ok = ok && write_all(r, &of, record, e);

@@ -47,6 +47,8 @@ PY
 "$gnathos" fit "$work/patient" -o "$work/out" --json >"$work/fit.json" 2>"$work/told.txt"
 cmp "$work/fit.json" "$work/out/fit.json" || fail "fit prints another record than it writes"
 /usr/bin/python3 "$here/check_record.py" "$gnathos" "$work/fit.json"
+grep -q '^gnathos: skin: warning: [1-5][0-9] % of it is guessed from the template: the scan has nothing there$' "$work/told.txt" ||
+    fail "nothing warns of what is guessed: $(cat "$work/told.txt")"
 "$gnathos" check "$work/out/case" >"$work/check.txt" 2>&1 || fail "the fitted head is no case: $(cat "$work/check.txt")"
 /usr/bin/python3 - "$work" <<'PY'
 import json, math, os, sys, meshio
