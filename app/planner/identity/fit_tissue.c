@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double anchor_area_mm2 = 10;
+static const double anchor_area_mm2 = 3;
 
 static bool is_stopped(void *watch) { return task_interrupted(watch); }
 
