@@ -102,7 +102,7 @@ def main():
     draws, refused = 0, {}
     plan = os.path.join(folder, "plan.json")
     with open(plan, "w") as f:
-        json.dump({"gnathos": 1, "maxilla_advance_mm": 4, "mandible_advance_mm": -3}, f)
+        json.dump({"gnathos": 1, "maxilla_advance_mm": 2, "mandible_advance_mm": 2, "override": "one plan for all heads"}, f)
     for seed in range(1, a.random + 1):
         case = os.path.join(folder, f"random_{seed:03d}")
         kept = record(case + ".json", gnathos, "identities", "make", model, "--random", "--seed", str(seed), "-o", case)
