@@ -125,6 +125,27 @@ calculix() {
     done
 }
 
+faults() { # what the nightly scripts printed, left in WORK as kills.txt, full_disk.txt, memory.txt and same_bits.txt
+    ls "$work/kills.txt" "$work/full_disk.txt" "$work/memory.txt" "$work/same_bits.txt" 2>/dev/null | grep -q . || return 0
+    cat <<'END'
+
+## Faults and same bits
+
+`sh tests/nightly/kills.sh` kills runs at random moments, a third of them while they write: afterwards the earlier result is
+there whole, or the new one, and the next run leaves nothing else. `full_disk.sh` gives output, cache and TMPDIR together a
+disk of so many kB: *done*, or *told* by a line that names the file, with the earlier result whole and nothing new left.
+`memory.sh` lets every 50th allocation of a command fail in turn: *right* is status 7, a line that says so, and no half result;
+some allocations are not always reached. `same_bits.sh` compares every file of new, cut, prepare and predict over 1, 2, 3 and 8
+threads.
+END
+    for name in kills full_disk memory same_bits; do
+        [ -f "$work/$name.txt" ] || continue
+        printf '\n```\n'
+        cat "$work/$name.txt"
+        echo '```'
+    done
+}
+
 mkdir -p "$here/evidence"
 page=$work/EVIDENCE.md
 {
@@ -236,6 +257,7 @@ END
         cat "$work/fuzz.txt"
         echo '```'
     fi
+    faults
     cat <<END
 
 ## Stiff and extreme cases

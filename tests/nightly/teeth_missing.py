@@ -4,6 +4,10 @@ measured otherwise, what is left out by name, what is refused. Ends with an erro
 bound and nothing says why."""
 import json, os, shutil, subprocess, sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "planted"))
+from head import Head
+from mistakes import toothless
+
 gnathos, work, *only = sys.argv[1:]
 base = os.path.join(work, "base")
 if not os.path.exists(base):
@@ -34,6 +38,15 @@ def case(name, gone, new):
     return folder
 
 
+def jaws(name, plant):
+    """A case of jaws without teeth, what is gone and what is new."""
+    h = Head(base).copy()
+    before = set(h.point)
+    plant(h)
+    h.write(os.path.join(work, name))
+    return os.path.join(work, name), before - set(h.point), set(h.point) - before
+
+
 def judged(folder):
     run = subprocess.run([gnathos, "audit", folder, "--plan", plan, "--json", "-q"], capture_output=True, text=True)
     if run.returncode not in (0, 6):
@@ -53,12 +66,16 @@ ways = {
     "U6, none": (both("U6"), {}),
     "L6, none": (both("L6"), {}),
     "U1": ({"U1"}, {}),
+    "incisors": toothless(),
+    "all teeth": toothless(True),
 }
 whole = None
 print("%-12s %8s %8s %8s %9s  %s" % ("without", "changed", "most", "left out", "contacts", "what"))
-for name, (gone, new) in ways.items():
+for name, way in ways.items():
     if only and name not in only: continue
-    limits, refusal = judged(case(name.replace(" ", "_").replace(",", ""), gone, new))
+    place = name.replace(" ", "_").replace(",", "")
+    folder, gone, new = jaws(place, way) if callable(way) else (case(place, *way), *way)
+    limits, refusal = judged(folder)
     if limits is None:
         print("%-12s refused: %s" % (name, refusal))
         assert any(g in refusal for g in gone), "the refusal does not name what is missing"
@@ -73,7 +90,7 @@ for name, (gone, new) in ways.items():
         if not isinstance(a, float) or not isinstance(b, float): continue
         by = abs(a - b) / (100 if whole[k]["unit"] in ("mm2", "mm3") else 1) if whole[k].get("unit") else abs(a - b)
         change = max(change, (by, "%s %s %.2f -> %.2f" % (*k, a, b)))
-        if by > 1.5 and not (new and now[k].get("note") or gone & both("U6", "L6") and told): silent.append(k)
+        if by > 1.5 and not (new and now[k].get("note") or gone & (both("U6", "L6") | {"U1", "L1"}) and told): silent.append(k)
     count = sum(isinstance(whole[k]["value"], float) and whole[k]["value"] != now.get(k, {}).get("value") for k in whole)
     contacts = now[("bite_contacts", "")]["value"]
     print("%-12s %8d %8.2f %8d %9s  %s" % (name, count, change[0], len(lost), contacts, change[1]))
