@@ -15,6 +15,7 @@ trap 'umount "$work/disk" 2>/dev/null || true; rm -rf "$work"' EXIT
 mkdir "$work/disk"
 cd "$work"
 printf '{ "gnathos": 1, "maxilla_advance_mm": 2 }\n' >plan.json
+[ -f "$outcome/outcome.json" ] || { echo "$outcome is no outcome"; exit 2; }
 wrong() { echo "FAIL: $*"; failed=1; }
 on_disk() { # KB ARGUMENT...: NEW in them is a name on the disk
     mount -t tmpfs -o "size=${1}k" none disk
