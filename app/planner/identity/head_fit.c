@@ -9,10 +9,7 @@
 /* What of the patient a vertex of the fitted template is measured against. */
 static const target_rules measured = {5, 0.5};
 
-head_fit_params head_fit_params_default(void)
-{
-    return (head_fit_params){.tissue_young_kpa = 15, .poisson = 0.3, .use_landmarks = true};
-}
+head_fit_params head_fit_params_default(void) { return (head_fit_params){.use_landmarks = true}; }
 
 void head_fit_free(head_fit *f)
 {

@@ -7,7 +7,6 @@
 #include "app/planner/identity/head_place.h"
 
 typedef struct head_fit_params {
-    double tissue_young_kpa, poisson;
     bool use_landmarks; /* for the place; they never pull on the bent template */
 } head_fit_params;
 head_fit_params head_fit_params_default(void);
