@@ -1,5 +1,8 @@
 /* gnathos import: a case folder from surfaces, or from a label map and a CT. */
 #include "app/cli/verb.h"
+#if GNATHOS_WITH_SIM
+#include "app/planner/identity/head_landmarks.h"
+#endif
 #include "app/planner/patient/import_record.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -37,7 +40,8 @@ static const struct argp_option options[] = {
     {"mandible", KEY_MANDIBLE, "FROM", 0, "Mandible", 1},
     {"upper-teeth", KEY_UPPER, "FROM", 0, "Upper teeth, where they are apart from the skull", 1},
     {"lower-teeth", KEY_LOWER, "FROM", 0, "Lower teeth, where they are apart from the mandible", 1},
-    {"landmarks", KEY_LANDMARKS, "FILE", 0, "Points of 3D Slicer (.mrk.json, .fcsv)", 1},
+    {"landmarks", KEY_LANDMARKS, "FILE", 0,
+     "Points of 3D Slicer (.mrk.json, .fcsv); auto: gnathos places them, look at them before they are used", 1},
     {NULL, 0, NULL, 0, "How mesh files are meant:", 2},
     {"frame", KEY_FRAME, "AXES", 0, "lps (where absent) or ras: axes of meshes without a SPACE tag", 2},
     {"unit", KEY_UNIT, "UNIT", 0, "mm, cm or m: length unit of the mesh files", 2},
@@ -74,6 +78,23 @@ static double number(const char *arg, double low, double high, const char *what,
     return value;
 }
 
+/* --landmarks auto */
+static bool place(const surface part[CASE_SURFACE_COUNT], const task *watch, landmarks *out, err *e)
+{
+#if GNATHOS_WITH_SIM
+    head_scan scan = {0};
+    head_landmarks found = {0};
+    memcpy(scan.part, part, sizeof scan.part); /* borrowed */
+    if (!head_landmarks_place(&scan, watch, &found, e)) return false;
+    *out = head_landmarks_points(&found);
+    head_landmarks_free(&found);
+    return true;
+#else
+    (void)part, (void)watch, (void)out;
+    return err_set(e, ERR_USAGE, "--landmarks auto: this build fits no template (GNATHOS_SIM=OFF)");
+#endif
+}
+
 static void add(import_words *w, const char *arg, struct argp_state *state)
 {
     if (w->count == IMPORT_TIMES_MOST)
@@ -92,7 +113,12 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
     case KEY_MANDIBLE: add(&p->from[CASE_MANDIBLE], arg, state); return 0;
     case KEY_UPPER: add(&p->from[CASE_UPPER_TEETH], arg, state); return 0;
     case KEY_LOWER: add(&p->from[CASE_LOWER_TEETH], arg, state); return 0;
-    case KEY_LANDMARKS: p->landmarks = arg; return 0;
+    case KEY_LANDMARKS:
+        if (strcmp(arg, "auto"))
+            p->landmarks = arg;
+        else
+            p->place = place;
+        return 0;
     case KEY_NAME: p->name = arg; return 0;
     case KEY_LABELS: add(&p->labels, arg, state); return 0;
     case KEY_PRESET: p->preset = arg; return 0;

@@ -54,6 +54,7 @@ const verb_row verbs[] = {
     {"audit", "judge a plan by the limits of bone, teeth and nerve", WITH_CGAL(verb_audit)},
     {"template", "the head in whose numbering all heads are described", WITH_SIM(verb_template)},
     {"fit", "bring the template of heads into the shape of a patient", WITH_SIM(verb_fit)},
+    {"landmarks", "place the landmarks of a head", WITH_SIM(verb_landmarks)},
     {"study", "error against run time of a case", WITH_SIM(verb_study)},
     {"identities", "learn how heads differ, and make new ones", WITH_SIM(verb_identities)},
     {"stress", "stiff materials and extreme moves", WITH_SOLVER(verb_stress)},

@@ -11,6 +11,7 @@
 #include "app/planner/predict/compare_record.h"
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
+#include "app/cli/landmarks_record.h"
 #include "app/planner/bounds/audit_record.h"
 #include "app/planner/identity/fit_record.h"
 #include "app/planner/predict/outcome_record.h"
@@ -28,20 +29,33 @@ enum { PATH_SIZE = 256 };
 
 static const record_table *const all[] = {
 #if GNATHOS_WITH_CGAL
-    &new_record_table,   &import_record_table,   &check_record_table,
-    &cut_record_table,   &prepared_record_table, &plan_audit_table,
+    &new_record_table,
+    &import_record_table,
+    &check_record_table,
+    &cut_record_table,
+    &prepared_record_table,
+    &plan_audit_table,
     &comparison_table,
 #endif
 #if GNATHOS_WITH_SIM && GNATHOS_WITH_CGAL
-    &outcome_table,      &audit_table,           &study_record_table,
-    &study_ratios_table, &study_folder_table,    &template_record_table,
-    &identities_table,   &identity_table,        &identity_made_table,
+    &outcome_table,
+    &audit_table,
+    &study_record_table,
+    &study_ratios_table,
+    &study_folder_table,
+    &template_record_table,
+    &identities_table,
+    &identity_table,
+    &identity_made_table,
     &fit_record_table,
+    &landmarks_record_table,
 #endif
 #if GNATHOS_WITH_SIM
     &stress_table,
 #endif
-    &cephalometry_table, &made_record_table,     NULL};
+    &cephalometry_table,
+    &made_record_table,
+    NULL};
 
 const record_table *records_nth(int n) { return all[n]; }
 

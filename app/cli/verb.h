@@ -95,8 +95,8 @@ int verb_run(const verb *v, int argc, char **argv);
 bool verb_prepare_case(run_context *r, err *e) MUST_CHECK;
 
 extern const verb verb_audit, verb_ceph, verb_check, verb_compare, verb_cut, verb_export, verb_fit, verb_help,
-    verb_identities, verb_import, verb_new, verb_predict, verb_prepare, verb_render, verb_report, verb_stress,
-    verb_study, verb_template;
+    verb_identities, verb_import, verb_landmarks, verb_new, verb_predict, verb_prepare, verb_render, verb_report,
+    verb_stress, verb_study, verb_template;
 
 typedef struct verb_row {
     const char *name, *help;

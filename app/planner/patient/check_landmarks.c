@@ -209,6 +209,12 @@ void check_landmarks(const case_file *c, check_found *found, issue_list *issues)
     if (skipped)
         issue_add(issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, NULL,
                   "%d points are not placed (positionStatus is not \"defined\") and are ignored", skipped);
+    char automatic[600];
+    int32_t count = landmarks_automatic(&found->points, automatic, sizeof automatic);
+    if (count)
+        issue_add(issues, ISSUE_WARNING, ERR_NONE, c->landmarks, 0, NULL,
+                  "%d of %d landmarks were placed by gnathos and not by hand: look at them (%s)", count,
+                  found->points.count, automatic);
     check_set(c, &found->points, issues);
     check_frame(c, found, issues);
     check_sides(c, &found->points, issues);

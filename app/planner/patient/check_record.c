@@ -44,7 +44,7 @@ typedef struct check_record {
     const case_file *patient;
     const check_found *found;
     bool ok;
-    int32_t landmarks;
+    int32_t landmarks, automatic;
     double residual_mm;
     int issues;
     const issue *issue;
@@ -73,6 +73,7 @@ static const record_row check_row[] = {
     ROW(check_record, ok, "ok", NULL, "there is no error"),
     ROW_MAP(next_surface, "surface", OBJECT, &surface_table, "surfaces", NULL, "what was read"),
     ROW(check_record, landmarks, "landmarks", NULL, "how many landmarks were read"),
+    ROW(check_record, automatic, "landmarks_automatic", NULL, "how many of them gnathos placed"),
     ROW_OPTIONAL(check_record, residual_mm, "frankfort_residual_mm", "mm",
                  "distance of porions and orbitales from their common plane"),
     ROW_OPTIONAL(check_record, plan, "plan", NULL, "path of the plan that was checked too"),
@@ -89,6 +90,7 @@ json_t *check_record_json(const case_file *c, const check_found *found, const ch
                             .found = found,
                             .ok = issue_count(issues, ISSUE_ERROR) == 0,
                             .landmarks = found->points.count,
+                            .automatic = landmarks_automatic(&found->points, NULL, 0),
                             .residual_mm = found->has_frame ? found->frame_residual_mm : (double)NAN,
                             .issues = issues->count,
                             .issue = issues->item};

@@ -1,7 +1,5 @@
 #include "app/planner/patient/import.h"
 #include "app/planner/patient/check_parts.h"
-#include "app/planner/patient/landmark_needs.h"
-#include "geometry/frame.h"
 #include "geometry/mem.h"
 #include "geometry/repair.h"
 #include "geometry/vec.h"
@@ -171,30 +169,6 @@ static bool check_complete(const import_result *r, err *e)
     return true;
 }
 
-static void note_landmarks(import_result *r, issue_list *notes)
-{
-    head_frame frame;
-    err why = {0};
-    char missing[512] = "";
-    size_t n = 0;
-    for (int i = 0; i < landmark_row_count; i++) {
-        const landmark_row *row = &landmark_rows[i];
-        if (row->need != NEED_ALWAYS || row->instead || landmarks_find(&r->points, row->label)) continue;
-        n += (size_t)snprintf(missing + n, n < sizeof missing ? sizeof missing - n : 0, " %s", row->label);
-    }
-    if (!r->has_points)
-        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL,
-                  "no landmarks: place at least%s in 3D Slicer and save them as landmarks.mrk.json in the case",
-                  missing);
-    else if (*missing)
-        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL, "landmarks still missing:%s", missing);
-    else if (!head_frame_from_landmarks(&r->points, &frame, &why))
-        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL, "%s", why.text);
-    if (r->points_skipped)
-        issue_add(notes, ISSUE_WARNING, ERR_NONE, NULL, 0, NULL,
-                  "%d landmarks without a defined position were left out", r->points_skipped);
-}
-
 /* All mesh files of a part, put together. */
 static bool read_meshes(const import_params *p, const import_words *from, import_part *part, issue_list *notes, err *e)
 {
@@ -257,15 +231,11 @@ bool import_read(const import_params *p, const task *watch, import_result *out, 
         if (good && task_interrupted(watch)) good = err_set(e, ERR_INTERRUPTED, "interrupted");
     }
     if (good) good = check_size(p, &r, e) && check_together(&r, e) && check_against_each_other(&r, notes, e);
-    if (good && p->landmarks) {
-        good = landmarks_read(p->landmarks, &r.points, &r.points_skipped, e);
-        r.has_points = good;
-    }
+    if (good) good = import_points(p, watch, &r, notes, e);
     if (!good) {
         import_result_free(&r);
         return false;
     }
-    note_landmarks(&r, notes);
     import_note_as_case(p, &r, notes);
     *out = r;
     return true;
@@ -286,7 +256,7 @@ static bool write_case(const import_params *p, const import_result *r, const cha
         good = mesh_write_surface(&r->part[i].mesh, path, e);
     }
     snprintf(path, sizeof path, "%s/landmarks.mrk.json", folder);
-    if (good && r->has_points) good = landmarks_write(&r->points, path, e);
+    if (good && r->has_points) good = landmarks_write_sure(&r->points, LANDMARK_DOUBT_MOST_MM, path, e);
     const char *slash = strrchr(target, '/'), *name = p->name ? p->name : slash ? slash + 1 : target;
     json_t *root = json_pack("{s:i, s:s, s:s, s:s, s:o, s:s}", "gnathos", 1, "name", name, "units", "mm", "frame",
                              "LPS", "surfaces", surfaces, "landmarks", "landmarks.mrk.json");

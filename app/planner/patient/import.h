@@ -4,12 +4,16 @@
 #include "app/planner/patient/case_file.h"
 #include "app/planner/store/task.h"
 #include "geometry/label_surface.h"
+#include "geometry/landmarks.h"
 
 enum { IMPORT_TIMES_MOST = 64 };
 typedef struct import_words { /* of an option that may be given several times, all of which count */
     int count;
     const char *word[IMPORT_TIMES_MOST];
 } import_words;
+
+/* Landmarks of a head, with their doubts. The caller frees *out. */
+typedef bool import_place(const surface part[CASE_SURFACE_COUNT], const task *watch, landmarks *out, err *e);
 
 typedef struct import_params {
     /* For each surface mesh files or, with `labels`, labels separated by commas: names, or numbers where the
@@ -24,10 +28,11 @@ typedef struct import_params {
     double seal_mm;            /* openings of the skin narrower than this are sealed, with the airways behind them */
     label_surface_params mesh; /* its least_mm3 holds for islands of voxels too */
     const char *landmarks;
-    const char *name; /* NULL: the folder's */
-    mesh_space space; /* of mesh files without a tag */
-    volume_form form; /* of NIfTI files whose two forms disagree */
-    double unit_mm;   /* length unit of mesh files; 0: mm, refused where that makes no head */
+    import_place *place; /* who places the landmarks on what was read; NULL: nobody */
+    const char *name;    /* NULL: the folder's */
+    mesh_space space;    /* of mesh files without a tag */
+    volume_form form;    /* of NIfTI files whose two forms disagree */
+    double unit_mm;      /* length unit of mesh files; 0: mm, refused where that makes no head */
 } import_params;
 
 typedef struct import_part {
@@ -62,6 +67,8 @@ void import_result_free(import_result *r);
 
 /* Adds what check will say of bones against skin and of landmarks. */
 void import_note_as_case(const import_params *p, const import_result *r, issue_list *notes);
+/* Reads the landmarks, or has them placed. */
+bool import_points(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e) MUST_CHECK;
 /* The parts that come from a label map or a CT. */
 bool import_labels(const import_params *p, const task *watch, import_result *out, issue_list *notes, err *e) MUST_CHECK;
 bool import_is_mesh_name(const char *text);

@@ -54,7 +54,7 @@ static const void *next_measure(const void *of, int *i, const char **key, void *
 
 typedef struct carried_point {
     const char *label, *carrier;
-    double before[3], after[3], moved[3];
+    double doubt_mm, before[3], after[3], moved[3];
 } carried_point;
 
 static const record_row point_row[] = {
@@ -63,6 +63,7 @@ static const record_row point_row[] = {
      .help = "what it moves with"},
     ROW(carried_point, before, "before_lps_mm", "LPS mm", "where it is"),
     ROW(carried_point, after, "after_lps_mm", "LPS mm", "where it goes"),
+    ROW_OPTIONAL(carried_point, doubt_mm, "automatic_doubt_mm", "mm", "gnathos placed it, and may be about so far off"),
     ROW(carried_point, moved, "forward_up_left_mm", "mm", "how far, along the head's own axes"),
 };
 static const record_table point_table = {.title = "A landmark", RECORD_ROWS(point_row)};
@@ -79,6 +80,7 @@ static const void *next_point(const void *of, int *i, const char **key, void *sp
     carried_point *p = space;
     vec_sub(to->xyz, from->xyz, d);
     *p = (carried_point){.label = from->label,
+                         .doubt_mm = from->doubt_mm > 0 ? from->doubt_mm : (double)NAN,
                          .carrier = carrier >= 0                 ? segment_name((segment_id)carrier)
                                     : carrier == CARRIED_BY_SKIN ? "skin"
                                                                  : "nothing",

@@ -41,6 +41,19 @@ void landmarks_set(landmarks *l, const char *label, const double xyz[3])
     vec_copy(xyz, p->xyz);
 }
 
+int32_t landmarks_automatic(const landmarks *l, char *names, size_t size)
+{
+    int32_t count = 0;
+    size_t n = 0;
+    if (size) *names = 0;
+    for (int32_t i = 0; i < l->count; i++) {
+        if (!(l->point[i].doubt_mm > 0)) continue;
+        if (n < size) n += (size_t)snprintf(names + n, size - n, "%s%s", count ? " " : "", l->point[i].label);
+        count++;
+    }
+    return count;
+}
+
 /* What is wrong with a label that would be appended, or NULL. */
 static const char *label_fault(const landmarks *l, const char *label)
 {
@@ -71,10 +84,15 @@ static bool read_markups(const char *path, landmarks *out, int32_t *skipped, err
             const char *fault = label_fault(&l, label);
             char pointer[96];
             snprintf(pointer, sizeof pointer, "/markups/%zu/controlPoints/%zu/label", i, k);
-            if (fault)
+            if (fault) {
                 good = json_file_refuse(&f, pointer, e, "the landmark \"%s\" %s", label, fault);
-            else
-                landmarks_set(&l, label, xyz);
+                break;
+            }
+            double doubt_mm = 0;
+            landmarks_set(&l, label, xyz);
+            if (sscanf(markups_point_description(&f, i, k), "placed by gnathos, about %lf mm", &doubt_mm) == 1 &&
+                doubt_mm > 0)
+                l.point[l.count - 1].doubt_mm = fmin(doubt_mm, 1000);
         }
     }
     json_file_free(&f);
@@ -132,11 +150,21 @@ bool landmarks_read(const char *path, landmarks *out, int32_t *skipped, err *e)
 
 bool landmarks_write(const landmarks *l, const char *path, err *e)
 {
+    return landmarks_write_sure(l, HUGE_VAL, path, e);
+}
+
+bool landmarks_write_sure(const landmarks *l, double most_mm, const char *path, err *e)
+{
     if (!file_name_ends(path, ".mrk.json"))
         return err_at(e, ERR_USAGE, path, 0, NULL, "landmarks are written as .mrk.json");
     json_t *list, *points, *document = markups_document(&list);
     json_array_append_new(list, markups_new("Fiducial", &points));
-    for (int32_t i = 0; i < l->count; i++) markups_add_point(points, l->point[i].label, l->point[i].xyz);
+    for (int32_t i = 0; i < l->count; i++) {
+        const landmark *p = l->point + i;
+        char words[64] = "";
+        if (p->doubt_mm > 0) snprintf(words, sizeof words, "placed by gnathos, about %.1f mm", p->doubt_mm);
+        markups_add_described(points, p->label, p->xyz, words, p->doubt_mm <= most_mm);
+    }
     bool good = json_file_write(document, path, e);
     json_decref(document);
     return good;

@@ -105,14 +105,26 @@ json_t *markups_new(const char *type, json_t **points)
                      "locked", 0, "labelFormat", "%N-%d", "controlPoints", *points);
 }
 
+const char *markups_point_description(const json_file *f, size_t index, size_t k)
+{
+    const json_t *p = json_array_get(json_object_get(markup_at(f, index), "controlPoints"), k);
+    const char *text = json_string_value(json_object_get(p, "description"));
+    return text ? text : "";
+}
+
 void markups_add_point(json_t *points, const char *label, const double xyz[3])
+{
+    markups_add_described(points, label, xyz, "", true);
+}
+
+void markups_add_described(json_t *points, const char *label, const double xyz[3], const char *description, bool placed)
 {
     char id[24];
     snprintf(id, sizeof id, "%zu", json_array_size(points) + 1);
     /* orientation: the identity of RAS. Some releases take a point without a status as not placed. */
     json_t *p = json_pack("{s:s, s:s, s:s, s:s, s:[fff], s:[fffffffff], s:b, s:b, s:b, s:s}", "id", id, "label", label,
-                          "description", "", "associatedNodeID", "", "position", xyz[0], xyz[1], xyz[2], "orientation",
-                          -1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, "selected", 1, "locked", 0, "visibility", 1,
-                          "positionStatus", "defined");
+                          "description", description, "associatedNodeID", "", "position", xyz[0], xyz[1], xyz[2],
+                          "orientation", -1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, "selected", 1, "locked", 0,
+                          "visibility", 1, "positionStatus", placed ? "defined" : "preview");
     json_array_append_new(points, p);
 }

@@ -13,9 +13,14 @@ bool markups_check(const json_file *f, size_t index, const char *type, bool *ras
  * *label is borrowed and may be "". xyz in LPS. */
 bool markups_point(const json_file *f, size_t index, size_t k, bool ras, bool *defined, const char **label,
                    double xyz[3], err *e) MUST_CHECK;
+/* Of the same point, "" where there is none; borrowed. */
+const char *markups_point_description(const json_file *f, size_t index, size_t k);
 size_t markups_point_count(const json_file *f, size_t index);
 
 /* A document with an empty markups array, and a point in it, in LPS. */
 json_t *markups_document(json_t **list);
 json_t *markups_new(const char *type, json_t **points);
 void markups_add_point(json_t *points, const char *label, const double xyz[3]);
+/* The same with a description, and whether its position is placed. */
+void markups_add_described(json_t *points, const char *label, const double xyz[3], const char *description,
+                           bool placed);
