@@ -171,6 +171,33 @@ static void names_of_an_automatic_tool_become_ours(void **state)
     landmarks_free(&back);
 }
 
+static void doubts_are_told_and_what_is_too_doubtful_is_not_placed(void **state)
+{
+    (void)state;
+    err e = {0};
+    landmarks l = {0}, got;
+    int32_t skipped = 0;
+    char names[64];
+    const double at[3] = {1, 2, 3};
+    landmarks_set(&l, "by_hand", at);
+    landmarks_set(&l, "sure", at);
+    landmarks_set(&l, "doubtful", at);
+    l.point[1].doubt_mm = 1.3;
+    l.point[2].doubt_mm = 7;
+    assert_ok(landmarks_write_sure(&l, 5, "doubts.mrk.json", &e));
+    assert_ok(landmarks_read("doubts.mrk.json", &got, &skipped, &e));
+    assert_int_equal(got.count, 2);
+    assert_int_equal(skipped, 1);
+    assert_null(landmarks_find(&got, "doubtful"));
+    assert_near(landmarks_find(&got, "by_hand")->doubt_mm, 0, 0);
+    assert_near(landmarks_find(&got, "sure")->doubt_mm, 1.3, 1e-12);
+    assert_int_equal(landmarks_automatic(&got, names, sizeof names), 1);
+    assert_string_equal(names, "sure");
+    landmarks_free(&l);
+    landmarks_free(&got);
+    remove("doubts.mrk.json");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -179,6 +206,7 @@ int main(void)
         cmocka_unit_test(fcsv_is_read_with_quotes_columns_and_sides),
         cmocka_unit_test(names_of_an_automatic_tool_become_ours),
         cmocka_unit_test(wrong_files_are_refused_with_file_and_line),
+        cmocka_unit_test(doubts_are_told_and_what_is_too_doubtful_is_not_placed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -110,7 +110,7 @@ bool head_landmarks_find(const head_template *t, const head_scan *s, const head_
             l->spread_mm = place[i].spread_mm;
             l->by_definition = place[i].by_rule && place[i].found;
             l->gap_mm = gap_around(t, f, part_asked(s, i < known ? t->point[i].part : CASE_SKIN), carried.point[i].xyz);
-            l->doubt_mm = doubt_of(l);
+            l->doubt_mm = hypot(place[i].doubt_mm, doubt_of(l));
         }
         settle_mouth(out);
     }

@@ -202,6 +202,7 @@ static void refine_row(const surface part[CASE_SURFACE_COUNT], const point_rule 
         vec_copy(now->point[i].xyz, out[i].at);
         if (r && r->anchor) by_anchor(r, side, carried, now, out[i].at);
         out[i].by_rule = r;
+        out[i].doubt_mm = r ? r->doubt_mm : 0;
         if (on != CASE_SURFACE_COUNT) refine_one(carrier(part, on), r, side, now, out + i);
         vec_copy(out[i].at, now->point[i].xyz);
     }

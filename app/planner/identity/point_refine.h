@@ -5,6 +5,7 @@
 
 typedef struct point_place {
     double at[3];
+    double doubt_mm;     /* of the definition itself */
     bool by_rule, found; /* by_rule: has a definition on a surface; found: and that was there */
     double moved_mm;     /* from where it was carried */
     double spread_mm;    /* root mean square, over carried places that are 2 mm off in each direction */
