@@ -10,7 +10,8 @@
 
 static const double around_mm = 12, open_mm = 3;
 /* How far off points were on two scans with placed landmarks and on norm heads, for each sign of it. */
-static const double least_doubt_mm = 0.7, without_definition_mm = 2, nothing_there_mm = 4, share_of_move = 0.3;
+static const double least_doubt_mm = 0.7, without_definition_mm = 2.5, nothing_there_mm = 4, not_on_it_mm = 6,
+                    share_of_move = 0.3;
 
 void head_landmarks_free(head_landmarks *l)
 {
@@ -52,13 +53,14 @@ static int32_t part_asked(const head_scan *s, int32_t part)
     return part;
 }
 
-static double doubt_of(const head_landmark *l)
+static double doubt_of(const head_landmark *l, const point_place *p)
 {
     double sum = least_doubt_mm * least_doubt_mm + l->spread_mm * l->spread_mm;
     sum += share_of_move * l->moved_mm * share_of_move * l->moved_mm;
     sum += isnan(l->gap_mm) ? nothing_there_mm * nothing_there_mm : l->gap_mm * l->gap_mm;
     if (!l->by_definition) sum += without_definition_mm * without_definition_mm;
-    return sqrt(sum);
+    if (l->on != CASE_SURFACE_COUNT && !p->found) sum += not_on_it_mm * not_on_it_mm;
+    return sqrt(sum + p->doubt_mm * p->doubt_mm);
 }
 
 static case_surface surface_of(const char *label)
@@ -110,7 +112,7 @@ bool head_landmarks_find(const head_template *t, const head_scan *s, const head_
             l->spread_mm = place[i].spread_mm;
             l->by_definition = place[i].by_rule && place[i].found;
             l->gap_mm = gap_around(t, f, part_asked(s, i < known ? t->point[i].part : CASE_SKIN), carried.point[i].xyz);
-            l->doubt_mm = hypot(place[i].doubt_mm, doubt_of(l));
+            l->doubt_mm = doubt_of(l, place + i);
         }
         settle_mouth(out);
     }
