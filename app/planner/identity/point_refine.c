@@ -52,39 +52,20 @@ static bool make_seek(const point_rule *r, int side, const landmarks *now, const
     return true;
 }
 
-/* Height of the lower plane of occlusion at a depth. False: teeth are not there. */
-static bool occlusion_at(const landmarks *now, double posterior, double *up)
-{
-    const landmark *front = landmarks_find(now, "L1"), *left = landmarks_find(now, "L6_L"),
-                   *right = landmarks_find(now, "L6_R");
-    if (!front || !left || !right) return false;
-    double y = (left->xyz[1] + right->xyz[1]) / 2 - front->xyz[1],
-           z = (left->xyz[2] + right->xyz[2]) / 2 - front->xyz[2];
-    *up = front->xyz[2] + (y > 1 ? z / y : 0) * (posterior - front->xyz[1]);
-    return true;
-}
-
 /* Where a point is carried to, once its anchor has found its own place. */
 static void by_anchor(const point_rule *r, int side, const landmarks *carried, const landmarks *now, double x[3])
 {
     char label[LANDMARK_LABEL_SIZE];
-    double at[3] = {0};
     snprintf(label, sizeof label, "%s%s", r->anchor, side > 0 ? "_L" : side < 0 ? "_R" : "");
     const landmark *before = landmarks_find(carried, label), *after = landmarks_find(now, label);
-    if (!strcmp(r->anchor, OCCLUSION)) {
-        if (!occlusion_at(now, x[1], &at[2])) return;
-    } else if (!before || !after) {
-        return;
-    } else {
-        vec_copy(after->xyz, at);
-    }
+    if (!before || !after) return;
     double moved[3];
     vec_copy(x, moved);
     for (int c = 0; c < 3; c++)
         if (r->axes >> c & 1)
-            moved[c] = at[c] + r->offset[c] * (c == 0 && side < 0 ? -1 : 1);
+            moved[c] = after->xyz[c] + r->offset[c] * (c == 0 && side < 0 ? -1 : 1);
         else if (!r->axes)
-            moved[c] += at[c] - before->xyz[c];
+            moved[c] += after->xyz[c] - before->xyz[c];
     if (fabs(moved[2] - x[2]) < trusted_mm) vec_copy(moved, x); /* else the anchor itself is astray */
 }
 

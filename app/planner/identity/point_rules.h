@@ -3,9 +3,6 @@
 #pragma once
 #include "app/planner/patient/case_file.h"
 
-/* The lower plane of occlusion: through L1 and the middle of both L6. */
-#define OCCLUSION "occlusion"
-
 typedef struct point_rule {
     const char *label; /* with both: without _L and _R */
     bool both;
@@ -15,7 +12,7 @@ typedef struct point_rule {
     int facing;           /* 1: the surface faces the direction (a tip, an edge), -1: away (a fold, a roof), 0: any */
     double reach_mm;      /* from the carried place */
     double pull[3];       /* 1/mm, same axes: a place d mm from the carried one must gain pull d^2 / 2 mm */
-    const char *anchor; /* a label of the same side, or OCCLUSION, that knows more of the place than what was carried */
+    const char *anchor;   /* a label of the same side that knows more of the place than what was carried */
     unsigned axes; /* in these axes (bits 1, 2, 4) the place is `offset` from the anchor; 0: it moves along with it */
     double offset[3];
     double doubt_mm; /* of the definition itself, where heads or readers differ */
@@ -23,7 +20,7 @@ typedef struct point_rule {
     int saddle_axis;
 } point_rule;
 
-enum { POINT_RULES_OF_FRAME = 2 };     /* Po and Or, the first ones */
+enum { POINT_RULES_OF_FRAME = 1 };     /* Or, the first one: it and Po tell the Frankfort plane */
 extern const point_rule point_rules[]; /* in an order in which chords and anchors come before what hangs on them */
 extern const int point_rule_count;
 /* side: 1 left, -1 right, 0 middle. NULL: the label has none and goes to the nearest place of its surface. */

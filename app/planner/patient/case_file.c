@@ -1,4 +1,5 @@
 #include "app/planner/patient/case_file.h"
+#include "geometry/mem.h"
 #include "geometry/suggest.h"
 #include <errno.h>
 #include <limits.h>
@@ -194,19 +195,23 @@ static bool names_a_move(const json_t *o)
     return any;
 }
 
-/* Takes landmarks that are not there out of the object; names them if they are needed. */
-static void leave_out_landmarks(const json_file *f, bool needed, const case_file *c, issue_list *issues)
+/* False where landmarks are not named, or their file is not there, which is no fault of a case that needs none. */
+static bool has_landmarks(const json_file *f, const case_file *c)
 {
-    static const char hint[] = "`gnathos landmarks` places them on the surfaces";
-    const char *name = json_string_value(json_object_get(f->root, "landmarks"));
+    const json_t *named = json_object_get(f->root, "landmarks");
+    const char *name = json_string_value(named);
     char path[2 * FIELD_PATH_SIZE];
     if (name) snprintf(path, sizeof path, "%s/%s", *name == '/' ? "" : c->folder, name);
-    if (json_object_get(f->root, "landmarks") && !(name && *name && access(path, F_OK) && errno == ENOENT)) return;
-    if (needed && name)
+    return named && !(name && *name && access(path, F_OK) && errno == ENOENT);
+}
+
+static void ask_for_landmarks(const json_file *f, const char *name, issue_list *issues)
+{
+    static const char hint[] = "`gnathos landmarks` places them on the surfaces";
+    if (name)
         fields_issue(f, "/landmarks", issues, "%s is not there; %s", name, hint);
-    else if (needed)
+    else
         fields_issue(f, "/landmarks", issues, "is missing; must be the name of a file; %s", hint);
-    json_object_del(f->root, "landmarks");
 }
 
 /* What two fields must be to each other. */
@@ -245,8 +250,14 @@ static bool read_case(const char *path, bool needs_landmarks, case_file *out, is
     } else if (!json_object_get(f.root, "surfaces") && json_object_get(f.root, "gnathos") && names_a_move(f.root)) {
         issue_add(issues, ISSUE_ERROR, ERR_INPUT, c->path, 1, NULL, "is a plan, not a case; a case names its surfaces");
     } else {
-        leave_out_landmarks(&f, needs_landmarks, c, issues);
+        char *name = NULL;
+        bool there = has_landmarks(&f, c);
+        if (!there && json_object_get(f.root, "landmarks"))
+            name = mem_text(json_string_value(json_object_get(f.root, "landmarks")));
+        if (!there) json_object_del(f.root, "landmarks");
         fields_read(case_fields(), &f, f.root, "", c, issues);
+        if (!there && needs_landmarks) ask_for_landmarks(&f, name, issues);
+        free(name);
         check_lengths(&f, &c->tissue, issues);
         read_osteotomies(&f, c, issues);
         issue_sort_by_line(issues, from);
