@@ -7,9 +7,10 @@
 
 static landmarks jaws(bool with_frame)
 {
-    static const landmark all[] = {
-        {"Pr", {0, -88, -41}}, {"Id", {0, -87, -60}}, {"U6_crest_L", {26, -62, -38}}, {"U6_crest_R", {-26, -62, -38}},
-        {"Po_L", {60, 0, 0}},  {"Po_R", {-60, 0, 0}}, {"Or_L", {30, -81, 0}}};
+    static const landmark all[] = {{"Pr", {0, -88, -41}, 0},          {"Id", {0, -87, -60}, 0},
+                                   {"U6_crest_L", {26, -62, -38}, 0}, {"U6_crest_R", {-26, -62, -38}, 0},
+                                   {"Po_L", {60, 0, 0}, 0},           {"Po_R", {-60, 0, 0}, 0},
+                                   {"Or_L", {30, -81, 0}, 0}};
     landmarks l = {0};
     for (size_t i = 0; i < (with_frame ? sizeof all / sizeof *all : 4); i++)
         landmarks_set(&l, all[i].label, all[i].xyz);

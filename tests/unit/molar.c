@@ -5,11 +5,11 @@
 
 static landmarks arch(void)
 {
-    static const landmark all[] = {{"U1", {0, -90, -20}},
-                                   {"U3_L", {17, -82, -20}},
-                                   {"U3_R", {-17, -82, -20}},
-                                   {"U6_L", {25, -62, -20}},
-                                   {"U7_R", {-27, -52, -19}}};
+    static const landmark all[] = {{"U1", {0, -90, -20}, 0},
+                                   {"U3_L", {17, -82, -20}, 0},
+                                   {"U3_R", {-17, -82, -20}, 0},
+                                   {"U6_L", {25, -62, -20}, 0},
+                                   {"U7_R", {-27, -52, -19}, 0}};
     landmarks l = {0};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) landmarks_set(&l, all[i].label, all[i].xyz);
     return l;

@@ -161,11 +161,12 @@ static void alignment_refuses_what_leaves_the_motion_open(void **state)
 
 static landmarks face_of_the_egg(void)
 {
-    static const landmark all[] = {{"Po_L", {60, 0, 20}},     {"Po_R", {-60, 0, 20}},   {"Or_L", {30, -60, 20}},
-                                   {"Or_R", {-30, -60, 20}},  {"N", {0, -70, 30}},      {"Sn", {0, -75, -10}},
-                                   {"Al_L", {16, -70, -8}},   {"Al_R", {-16, -70, -8}}, {"Ch_L", {25, -66, -30}},
-                                   {"Ch_R", {-25, -66, -30}}, {"Stm", {0, -72, -30}},   {"B'", {0, -68, -45}},
-                                   {"Me'", {0, -50, -75}}};
+    static const landmark all[] = {
+        {"Po_L", {60, 0, 20}, 0},     {"Po_R", {-60, 0, 20}, 0},   {"Or_L", {30, -60, 20}, 0},
+        {"Or_R", {-30, -60, 20}, 0},  {"N", {0, -70, 30}, 0},      {"Sn", {0, -75, -10}, 0},
+        {"Al_L", {16, -70, -8}, 0},   {"Al_R", {-16, -70, -8}, 0}, {"Ch_L", {25, -66, -30}, 0},
+        {"Ch_R", {-25, -66, -30}, 0}, {"Stm", {0, -72, -30}, 0},   {"B'", {0, -68, -45}, 0},
+        {"Me'", {0, -50, -75}, 0}};
     landmarks l = {0};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) landmarks_set(&l, all[i].label, all[i].xyz);
     return l;
