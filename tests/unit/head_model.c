@@ -187,7 +187,7 @@ static void a_model_of_another_template_or_not_whole_is_refused_by_name(void **u
     assert_ok(head_model_write(&m, "other.model", &e));
     refuse_file("other.model", "other.model: weights: holds");
     m.modes.length += 3;
-    m.modes.sd[1] = NAN;
+    m.modes.sd[1] = (double)NAN;
     assert_ok(head_model_write(&m, "other.model", &e));
     refuse_file("other.model", "other.model: sd: number 1 is not finite");
     head_model_free(&m);

@@ -95,7 +95,7 @@ static void what_cannot_be_is_refused(void **state)
     surface s = sphere((double[]){0, 0, 0}, 30, 8), none = surface_new(0, 0);
     const surface *list[] = {&s}, *empty[] = {&none};
     assert_refused(lattice_cover(list, 1, 0, 0, &m, &e), ERR_INPUT);
-    assert_refused(lattice_cover(list, 1, NAN, 0, &m, &e), ERR_INPUT);
+    assert_refused(lattice_cover(list, 1, (double)NAN, 0, &m, &e), ERR_INPUT);
     assert_refused(lattice_cover(list, 1, 4, -1, &m, &e), ERR_INPUT);
     assert_refused(lattice_cover(empty, 1, 4, 0, &m, &e), ERR_GEOMETRY);
     assert_refused(lattice_cover(list, 1, 0.05, 0, &m, &e), ERR_RESOURCE);

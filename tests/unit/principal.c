@@ -268,7 +268,7 @@ static void refuses_one_sample_numbers_that_are_none_and_samples_all_alike(void 
     draw(3, 0);
     assert_refused(principal_learn(all, 1, LENGTH, weight, 5, &m, &e), ERR_GEOMETRY);
     assert_refused(principal_leave_out(all, 2, LENGTH, weight, 5, &l, &e), ERR_GEOMETRY);
-    sample[4][100] = NAN;
+    sample[4][100] = (double)NAN;
     assert_false(principal_learn(all, COUNT, LENGTH, weight, 5, &m, &e));
     assert_string_equal(e.text, "coordinate 100 of sample 4 is not a finite number");
     e = (err){0};

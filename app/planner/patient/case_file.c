@@ -195,21 +195,22 @@ static bool names_a_move(const json_t *o)
     return any;
 }
 
-/* False where landmarks are not named, or their file is not there, which is no fault of a case that needs none. */
+/* False where landmarks are not named, or their file is not there, which is no fault of a case that needs none. What is
+ * too long for a path is left to fields_read. */
 static bool has_landmarks(const json_file *f, const case_file *c)
 {
     const json_t *named = json_object_get(f->root, "landmarks");
     const char *name = json_string_value(named);
     char path[2 * FIELD_PATH_SIZE];
-    if (name) snprintf(path, sizeof path, "%s/%s", *name == '/' ? "" : c->folder, name);
-    return named && !(name && *name && access(path, F_OK) && errno == ENOENT);
+    int n = name ? snprintf(path, sizeof path, "%s/%s", *name == '/' ? "" : c->folder, name) : 0;
+    return named && !(n > 0 && n < FIELD_PATH_SIZE && *name && access(path, F_OK) && errno == ENOENT);
 }
 
 static void ask_for_landmarks(const json_file *f, const char *name, issue_list *issues)
 {
     static const char hint[] = "`gnathos landmarks` places them on the surfaces";
     if (name)
-        fields_issue(f, "/landmarks", issues, "%s is not there; %s", name, hint);
+        fields_issue(f, "/landmarks", issues, "does not exist; %s: %s", hint, name);
     else
         fields_issue(f, "/landmarks", issues, "is missing; must be the name of a file; %s", hint);
 }
