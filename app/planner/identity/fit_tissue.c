@@ -100,8 +100,9 @@ bool fit_tissue(fit_state *f, err *e)
     how.rounds = 3;
     how.soft_mm = 20;
     how.stiff_mm = 1;
-    how.reach_first_mm = 12;
-    how.reach_mm = 5;
+    how.reach_first_mm = 20;
+    how.reach_mm = 10;
+    how.facing_cos = 0.3;
     how.interrupted = is_stopped;
     how.context = (void *)f->watch;
     bool ok = registration_run(&problem, &how, &r, e);
