@@ -55,6 +55,9 @@ typedef struct registration_gaps { /* of the vertices that had a target in the l
     double mean_mm, p95_mm, max_mm;
 } registration_gaps;
 
+/* Of gap[count] in mm, which is sorted. */
+registration_gaps registration_gaps_of(double *gap, int32_t count, int32_t vertices);
+
 typedef struct registration {
     double *xyz;             /* [3*nodes] */
     registration_gaps *gaps; /* [part_count] */

@@ -104,7 +104,7 @@ static void print_plain(const run_context *r, const fit_record *of)
            f->place.scale);
     printf("%-14s %9s %9s %9s %9s %9s\n", "distance, mm", "mean", "95 %", "largest", "vertices", "guessed");
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
-        const head_gaps *g = &f->gaps[p];
+        const registration_gaps *g = &f->gaps[p];
         printf("%-14s ", case_surface_name((case_surface)p));
         if (g->with_target)
             printf("%9.2f %9.2f %9.2f", g->mean_mm, g->p95_mm, g->max_mm);

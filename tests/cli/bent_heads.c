@@ -16,7 +16,7 @@ static bool write_fit(const head_template *t, const head_shape *s, const char *f
     for (int k = 0; k < CASE_SURFACE_COUNT; k++) {
         f.gap_mm[k] = NEW_ARRAY(double, t->part[k].vertex_count);
         f.guessed[k] = NEW_ARRAY(uint8_t, t->part[k].vertex_count);
-        f.gaps[k] = (head_gaps){.vertices = t->part[k].vertex_count, .with_target = t->part[k].vertex_count};
+        f.gaps[k] = (registration_gaps){.vertices = t->part[k].vertex_count, .with_target = t->part[k].vertex_count};
     }
     snprintf(path, sizeof path, "%s/%s", folder, name);
     mkdir(path, 0777);

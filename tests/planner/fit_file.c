@@ -29,8 +29,8 @@ static int open_it(void **state)
             f.guessed[p][v] = v % 4 == 0;
             f.gap_mm[p][v] = v % 4 ? 0.001 * v : (double)NAN;
         }
-        f.gaps[p] =
-            (head_gaps){.vertices = n, .with_target = n - (n + 3) / 4, .mean_mm = 0.25, .p95_mm = 1, .max_mm = 3};
+        f.gaps[p] = (registration_gaps){
+            .vertices = n, .with_target = n - (n + 3) / 4, .mean_mm = 0.25, .p95_mm = 1, .max_mm = 3};
     }
     return !head_fit_write(&t, &f, "fit.pack", &e);
 }

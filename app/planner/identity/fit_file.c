@@ -36,7 +36,7 @@ static void roll_fit(tape *t, head_fit *f)
     f->place.turn_spread_deg = roll(t, f->place.turn_spread_deg);
     f->place.shift_spread_mm = roll(t, f->place.shift_spread_mm);
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
-        head_gaps *g = &f->gaps[p];
+        registration_gaps *g = &f->gaps[p];
         g->vertices = (int32_t)roll(t, g->vertices);
         g->with_target = (int32_t)roll(t, g->with_target);
         g->mean_mm = roll(t, g->mean_mm);

@@ -5,7 +5,7 @@ static const head_fit *fit_of(const void *of) { return ((const fit_record *)of)-
 
 double fit_guessed_share(const head_fit *f, case_surface part)
 {
-    const head_gaps *g = &f->gaps[part];
+    const registration_gaps *g = &f->gaps[part];
     return g->vertices ? 1 - (double)g->with_target / g->vertices : 0;
 }
 
@@ -61,7 +61,7 @@ static const record_table part_table = {.title = "How a part of the template lie
 static const void *next_part(const void *of, int *i, const char **key, void *space)
 {
     if (*i == CASE_SURFACE_COUNT) return NULL;
-    const head_gaps *g = &fit_of(of)->gaps[*i];
+    const registration_gaps *g = &fit_of(of)->gaps[*i];
     bool any = g->with_target > 0;
     part_fit *p = space;
     *key = case_surface_name((case_surface)*i);

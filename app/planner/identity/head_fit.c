@@ -52,18 +52,12 @@ static void end(fit_state *f)
     free(f->placed_nodes);
 }
 
-static int by_size(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 static void measure_part(const fit_state *f, case_surface p, head_fit *out)
 {
     const surface *s = &f->at[p];
     size_t n = (size_t)s->vertex_count;
     double *gap = NEW_ARRAY(double, n), *normal = surface_vertex_normals(s);
-    head_gaps g = {.vertices = s->vertex_count};
+    int32_t count = 0;
     out->gap_mm[p] = NEW_ARRAY(double, n);
     out->guessed[p] = NEW_ARRAY(uint8_t, n);
     for (size_t v = 0; v < n; v++) {
@@ -72,17 +66,9 @@ static void measure_part(const fit_state *f, case_surface p, head_fit *out)
         if (f->target[p]) d = target_surface_ask(f->target[p], s->xyz + 3 * v, normal + 3 * v, &measured, &hit);
         out->guessed[p][v] = d == HUGE_VAL;
         out->gap_mm[p][v] = d == HUGE_VAL ? (double)NAN : d;
-        if (d == HUGE_VAL) continue;
-        gap[g.with_target++] = d;
-        g.mean_mm += d;
+        if (d < HUGE_VAL) gap[count++] = d;
     }
-    if (g.with_target) {
-        qsort(gap, (size_t)g.with_target, sizeof *gap, by_size);
-        g.mean_mm /= g.with_target;
-        g.p95_mm = gap[(int32_t)(0.95 * (g.with_target - 1))];
-        g.max_mm = gap[g.with_target - 1];
-    }
-    out->gaps[p] = g;
+    out->gaps[p] = registration_gaps_of(gap, count, s->vertex_count);
     free(gap);
     free(normal);
 }

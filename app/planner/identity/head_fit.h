@@ -5,16 +5,12 @@
  * stages. */
 #pragma once
 #include "app/planner/identity/head_place.h"
+#include "sim/registration.h"
 
 typedef struct head_fit_params {
     bool use_landmarks; /* for the place; they never pull on the bent template */
 } head_fit_params;
 head_fit_params head_fit_params_default(void);
-
-typedef struct head_gaps { /* from the template's vertices to the patient's surface, of those that carried a target */
-    int32_t vertices, with_target;
-    double mean_mm, p95_mm, max_mm;
-} head_gaps;
 
 typedef struct head_fit {
     head_place place;
@@ -22,8 +18,8 @@ typedef struct head_fit {
     double *gap_mm[CASE_SURFACE_COUNT]; /* [vertex_count] distance to the patient's surface; NAN: no target there */
     uint8_t
         *guessed[CASE_SURFACE_COUNT]; /* [vertex_count] 1: the scan has nothing there, the place is the template's */
-    head_gaps gaps[CASE_SURFACE_COUNT];
-    double min_j; /* of the tissue against the template, rest and neutral */
+    registration_gaps gaps[CASE_SURFACE_COUNT]; /* from the template's vertices to the patient's surface */
+    double min_j;                               /* of the tissue against the template, rest and neutral */
     int32_t inverted_tets;
     int iterations, factorisations;
     double place_s, bones_s, tissue_s, total_s; /* wall */

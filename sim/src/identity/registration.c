@@ -115,21 +115,25 @@ static int by_size(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+registration_gaps registration_gaps_of(double *gap, int32_t count, int32_t vertices)
+{
+    registration_gaps g = {.vertices = vertices, .with_target = count};
+    if (!count) return g;
+    for (int32_t i = 0; i < count; i++) g.mean_mm += gap[i];
+    g.mean_mm /= count;
+    qsort(gap, (size_t)count, sizeof *gap, by_size);
+    g.p95_mm = gap[(int64_t)(0.95 * (count - 1))];
+    g.max_mm = gap[count - 1];
+    return g;
+}
+
 static registration_gaps gaps_of(const registration_springs *s, int32_t part)
 {
     double *gap = NEW_ARRAY(double, s->t.count);
-    registration_gaps g = {.vertices = s->problem->part[part].moving->vertex_count};
-    for (int32_t k = 0; k < s->t.count; k++) {
-        if (s->part[k] != part || !(s->gap_mm[k] < HUGE_VAL)) continue;
-        gap[g.with_target++] = s->gap_mm[k];
-        g.mean_mm += s->gap_mm[k];
-    }
-    qsort(gap, (size_t)g.with_target, sizeof *gap, by_size);
-    if (g.with_target) {
-        g.mean_mm /= g.with_target;
-        g.p95_mm = gap[(int64_t)(0.95 * (g.with_target - 1))];
-        g.max_mm = gap[g.with_target - 1];
-    }
+    int32_t count = 0;
+    for (int32_t k = 0; k < s->t.count; k++)
+        if (s->part[k] == part && s->gap_mm[k] < HUGE_VAL) gap[count++] = s->gap_mm[k];
+    registration_gaps g = registration_gaps_of(gap, count, s->problem->part[part].moving->vertex_count);
     free(gap);
     return g;
 }
