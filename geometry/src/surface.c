@@ -1,6 +1,6 @@
 #include "geometry/surface.h"
 #include "geometry/mem.h"
-#include "geometry/src/union_find.h"
+#include "geometry/union_find.h"
 #include "geometry/triangle.h"
 #include "geometry/vec.h"
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "geometry/src/cut/breach.h"
 #include "geometry/mem.h"
 #include "geometry/nearest.h"
-#include "geometry/src/union_find.h"
+#include "geometry/union_find.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
  * gets a copy of the node. Nodes on the rim of the sheet have one group and stay whole. */
 #include "geometry/src/tissue/tissue_fissure.h"
 #include "geometry/mem.h"
-#include "geometry/src/union_find.h"
+#include "geometry/union_find.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 

@@ -1,6 +1,8 @@
 #include "sim/target_surface.h"
 #include "geometry/distance_tree.h"
 #include "geometry/mem.h"
+#include "geometry/triangle.h"
+#include "geometry/union_find.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -32,11 +34,7 @@ static int by_ends(const void *a, const void *b)
 
 static void unit_normal(const surface *s, size_t triangle, double n[3], double *mm2)
 {
-    const int32_t *v = s->tri + 3 * triangle;
-    double a[3], b[3];
-    vec_sub(s->xyz + 3 * (size_t)v[1], s->xyz + 3 * (size_t)v[0], a);
-    vec_sub(s->xyz + 3 * (size_t)v[2], s->xyz + 3 * (size_t)v[0], b);
-    vec_cross(a, b, n);
+    triangle_area_vector(s, (int32_t)triangle, n);
     *mm2 = vec_normalize(n) / 2;
 }
 
@@ -52,12 +50,6 @@ static half_edge *sorted_edges(const surface *s, size_t count)
     return edge;
 }
 
-static int32_t root_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /* Marks the triangles of plane pieces of flat_mm2 and more: where the scan was cut. */
 static void mark_cuts(target_surface *t, const half_edge *edge, size_t count)
 {
@@ -71,16 +63,16 @@ static void mark_cuts(target_surface *t, const half_edge *edge, size_t count)
         if (by_ends(&edge[i], &edge[i + 1]) != 0) continue;
         unit_normal(&t->s, (size_t)edge[i].triangle, p, &area);
         unit_normal(&t->s, (size_t)edge[i + 1].triangle, q, &area);
-        int32_t a = root_of(parent, edge[i].triangle), b = root_of(parent, edge[i + 1].triangle);
+        int32_t a = union_root(parent, edge[i].triangle), b = union_root(parent, edge[i + 1].triangle);
         if (vec_dot(p, q) > even_cos) parent[a > b ? a : b] = a < b ? a : b;
     }
     for (size_t i = 0; i < n; i++) {
         double p[3], area;
         unit_normal(&t->s, i, p, &area);
-        mm2[root_of(parent, (int32_t)i)] += area;
+        mm2[union_root(parent, (int32_t)i)] += area;
     }
     for (size_t i = 0; i < n; i++)
-        if (mm2[root_of(parent, (int32_t)i)] >= flat_mm2) t->open[i] = CUT;
+        if (mm2[union_root(parent, (int32_t)i)] >= flat_mm2) t->open[i] = CUT;
     free(parent);
     free(mm2);
 }

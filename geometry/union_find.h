@@ -1,4 +1,4 @@
-/* union_find: what belongs together, as a forest in which parent[root] is the root. Private. */
+/* union_find: what belongs together, as a forest in which parent[root] is the root. */
 #pragma once
 #include <stdint.h>
 
