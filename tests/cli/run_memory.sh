@@ -53,7 +53,7 @@ series import import --skin base/skin.off --skull base/skull.off --mandible base
     --landmarks base/landmarks.mrk.json -o made
 if [ -n "$outcome" ]; then
     /usr/bin/python3 - <<'PY'
-n, mm, balls = 42, 5, ((0, 0, 0, 95, 9), (0, 0, 30, 40, 1), (0, -10, -45, 25, 2))
+n, mm, balls = 25, 5, ((0, 0, 0, 48, 9), (0, 0, 15, 20, 1), (0, -5, -23, 13, 2))
 def label(x, y, z):
     return max(((i, l) for i, (a, b, c, r, l) in enumerate(balls) if (x - a)**2 + (y - b)**2 + (z - c)**2 < r * r), default=(0, 0))[1]
 at = [mm * (i - (n - 1) / 2) for i in range(n)]

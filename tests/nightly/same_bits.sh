@@ -1,11 +1,18 @@
 #!/bin/sh
-# same_bits.sh [RUNS [ELEMENT_MM [CLASS [COARSENESS]]]]: new, cut, prepare and predict of the synthetic class III head, RUNS
-# (10) times with 1, 2, 3 and 8 threads in turn and other bytes in fresh memory each time, write the same bytes. Every file of every
-# run is compared with that of the first; of outcome.json times and the peak of memory are left out of that.
+# same_bits.sh [RUNS [ELEMENT_MM [CLASS [COARSENESS]]]], or same_bits.sh RUNS CASE PLAN: new (or a copy of CASE without what
+# was prepared), cut, prepare and predict, RUNS (10) times with 1, 2, 3 and 8 threads in turn and other bytes in fresh memory
+# each time, write the same bytes; without a CASE that of the synthetic class III head. Every file of every run is compared
+# with that of the first; of outcome.json times and the peak of memory are left out of that.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 gnathos=${GNATHOS_BUILD:-$root/build}/app/gnathos
-runs=${1:-10} element=${2:-3} class=${3:-3} coarseness=${4:-1} failed=0
+runs=${1:-10} failed=0
+if [ -d "${2:-}" ]; then
+    case=$(realpath "$2") plan=$(realpath "$3")
+else
+    case= element=${2:-3} class=${3:-3} coarseness=${4:-1}
+    plan=$root/cases/class$class/plan.json
+fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -24,12 +31,17 @@ for run in $(seq "$runs"); do
     jobs=$(echo 8 1 2 3 | cut -d ' ' -f $((run % 4 + 1)))
     mkdir "$run"
     export MALLOC_PERTURB_=$((run * 25 % 256))
-    "$gnathos" new "$run/case" --norm --class "$class" --coarseness "$coarseness" -j "$jobs" -q >"$run/new.txt"
-    sed 's/"osteotomies"/"tissue": { "element_mm": '"$element"' }, "osteotomies"/' "$run/case/case.json" >"$run/case.json"
-    mv "$run/case.json" "$run/case/case.json"
+    if [ -n "$case" ]; then
+        cp -R "$case" "$run/case"
+        find "$run/case" -name '*.pack' -delete
+    else
+        "$gnathos" new "$run/case" --norm --class "$class" --coarseness "$coarseness" -j "$jobs" -q >"$run/new.txt"
+        sed 's/"osteotomies"/"tissue": { "element_mm": '"$element"' }, "osteotomies"/' "$run/case/case.json" >"$run/case.json"
+        mv "$run/case.json" "$run/case/case.json"
+    fi
     "$gnathos" cut "$run/case" -o "$run/cut" -j "$jobs" -q >"$run/cut.txt"
     "$gnathos" prepare "$run/case" -j "$jobs" -q >"$run/prepare.txt"
-    "$gnathos" predict "$run/case" --plan "$root/cases/class$class/plan.json" -o "$run/out" --no-pictures -j "$jobs" -q >"$run/predict.txt"
+    "$gnathos" predict "$run/case" --plan "$plan" -o "$run/out" --no-pictures -j "$jobs" -q >"$run/predict.txt"
     timeless "$run"
     rm "$run"/*.txt
     if [ "$run" -eq 1 ]; then
