@@ -171,6 +171,37 @@ static void springs_give_way_where_tets_get_too_small(void **state)
     free_ball(&b);
 }
 
+static double asked(const target_surface *t, double x, double y, double z)
+{
+    static const target_rules near = {5, 0.3};
+    double p[3] = {x, y, z}, n[3] = {x, y, z};
+    target_point hit;
+    vec_normalize(n);
+    return target_surface_ask(t, p, n, &near, &hit);
+}
+
+/* Half of the cut is as rough as a scan's. */
+static void where_a_scan_was_cut_it_might_go_on(void **state)
+{
+    (void)state;
+    surface whole = sphere((double[]){0, 0, 0}, 40, 48), cut = surface_copy(&whole);
+    for (size_t v = 0; v < (size_t)cut.vertex_count; v++) {
+        double *x = cut.xyz + 3 * v;
+        if (x[2] > 30) x[2] = 30 + (x[0] > 0 ? 0.04 * (v % 2) : 0);
+    }
+    target_surface *of_whole = target_surface_make(&whole), *of_cut = target_surface_make(&cut);
+    assert_near(asked(of_whole, 0, 0, 42), 2, 0.1);
+    assert_near(asked(of_cut, 42, 0, 0), 2, 0.1);
+    assert_near(asked(of_cut, 40 * 0.8, 0, 40 * 0.65), 1.23, 0.1); /* not far from the edge */
+    assert_true(asked(of_cut, -10, 0, 33) == HUGE_VAL);
+    assert_true(asked(of_cut, 10, 0, 33) == HUGE_VAL);
+    assert_true(asked(of_cut, 42 * 0.64, 0, 42 * 0.768) == HUGE_VAL); /* above the edge */
+    target_surface_free(&of_whole);
+    target_surface_free(&of_cut);
+    surface_free(&whole);
+    surface_free(&cut);
+}
+
 static void every_thread_count_gives_the_same_bits(void **state)
 {
     (void)state;
@@ -216,6 +247,7 @@ static void what_cannot_be_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(where_a_scan_was_cut_it_might_go_on),
         cmocka_unit_test(a_body_that_fits_stays),
         cmocka_unit_test(a_ball_is_drawn_onto_an_egg),
         cmocka_unit_test(what_the_target_lacks_is_not_drawn_and_follows),

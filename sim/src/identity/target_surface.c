@@ -2,8 +2,8 @@
 #include "geometry/distance_tree.h"
 #include "geometry/mem.h"
 #include "geometry/triangle.h"
-#include "geometry/union_find.h"
 #include "geometry/vec.h"
+#include "sim/src/identity/target_cuts.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,71 +21,23 @@ struct target_surface {
     uint8_t *open;   /* [triangles] bit k: the edge opposite corner k is such a one; CUT: the whole is a cut */
 };
 
-typedef struct half_edge {
-    int32_t low, high, triangle, corner;
-} half_edge;
-
-static int by_ends(const void *a, const void *b)
-{
-    const half_edge *p = a, *q = b;
-    if (p->low != q->low) return p->low < q->low ? -1 : 1;
-    return (p->high > q->high) - (p->high < q->high);
-}
-
 static void unit_normal(const surface *s, size_t triangle, double n[3], double *mm2)
 {
     triangle_area_vector(s, (int32_t)triangle, n);
     *mm2 = vec_normalize(n) / 2;
 }
 
-static half_edge *sorted_edges(const surface *s, size_t count)
-{
-    half_edge *edge = NEW_ARRAY(half_edge, count);
-    for (size_t i = 0; i < count; i++) {
-        size_t first = i / 3 * 3;
-        int32_t a = s->tri[first + (i + 1) % 3], b = s->tri[first + (i + 2) % 3];
-        edge[i] = (half_edge){a < b ? a : b, a < b ? b : a, (int32_t)(i / 3), (int32_t)(i % 3)};
-    }
-    qsort(edge, count, sizeof *edge, by_ends);
-    return edge;
-}
-
-/* Marks the triangles of plane pieces of flat_mm2 and more: where the scan was cut. */
-static void mark_cuts(target_surface *t, const half_edge *edge, size_t count)
-{
-    static const double flat_mm2 = 400, even_cos = 1 - 1e-5; /* a quarter of a degree from triangle to triangle */
-    size_t n = (size_t)t->s.triangle_count;
-    int32_t *parent = NEW_ARRAY(int32_t, n);
-    double *mm2 = NEW_ARRAY(double, n);
-    for (size_t i = 0; i < n; i++) parent[i] = (int32_t)i;
-    for (size_t i = 0; i + 1 < count; i++) {
-        double p[3], q[3], area;
-        if (by_ends(&edge[i], &edge[i + 1]) != 0) continue;
-        unit_normal(&t->s, (size_t)edge[i].triangle, p, &area);
-        unit_normal(&t->s, (size_t)edge[i + 1].triangle, q, &area);
-        int32_t a = union_root(parent, edge[i].triangle), b = union_root(parent, edge[i + 1].triangle);
-        if (vec_dot(p, q) > even_cos) parent[a > b ? a : b] = a < b ? a : b;
-    }
-    for (size_t i = 0; i < n; i++) {
-        double p[3], area;
-        unit_normal(&t->s, i, p, &area);
-        mm2[union_root(parent, (int32_t)i)] += area;
-    }
-    for (size_t i = 0; i < n; i++)
-        if (mm2[union_root(parent, (int32_t)i)] >= flat_mm2) t->open[i] = CUT;
-    free(parent);
-    free(mm2);
-}
-
 /* Edges that only one triangle has, or only one that is no cut. */
 static void mark_border(target_surface *t)
 {
     size_t count = 3 * (size_t)t->s.triangle_count;
-    half_edge *edge = sorted_edges(&t->s, count);
-    mark_cuts(t, edge, count);
+    half_edge *edge = half_edges_sorted(&t->s);
+    uint8_t *cut = target_cuts(&t->s, edge);
+    for (size_t i = 0; i < count / 3; i++) t->open[i] = cut[i] ? CUT : 0;
+    free(cut);
     for (size_t i = 0, end; i < count; i = end) {
         size_t whole = 0;
-        for (end = i; end < count && by_ends(&edge[i], &edge[end]) == 0; end++)
+        for (end = i; end < count && half_edge_same(&edge[i], &edge[end]); end++)
             whole += t->open[edge[end].triangle] < CUT;
         if (whole != 1) continue;
         t->border[edge[i].low] = t->border[edge[i].high] = 1;
