@@ -56,6 +56,8 @@ damages = {
     "a corner of no vertex": put("skin.tri", "<i", 2**30),
     "a corner below 0": put("tet.node", "<i", -1),
     "a place that is no number": put("node.xyz", "<d", float("nan")),
+    "a distance that is no number": put("field.cranium.value", "<f", float("nan")),
+    "a distance of no place": put("field.cranium.block", "<i", 2**30),
     "a segment of no bone": put("node.segment", "<i", 99),
 }
 work, failed = tempfile.mkdtemp(), []

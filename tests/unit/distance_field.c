@@ -56,6 +56,43 @@ static void distance_to_a_sphere_is_off_by_its_bend(void **state)
     }
 }
 
+/* Kept samples are those that a field finds by itself, and what was not kept is found. */
+static void what_was_kept_is_what_is_found(void **state)
+{
+    (void)state;
+    nearest *tree;
+    distance_field *asked = make(&tree, 0.5), *finder = make(&tree, 0.5), *lent = make(&tree, 0.5);
+    const double place[6] = {3, -2, 7 + radius, (double)NAN, 0, 0};
+    distance_samples kept = distance_field_find(finder, place, 2, 2);
+    distance_field_destroy(&finder);
+    surface s = sphere(centre, radius, 60);
+    double low[3], high[3];
+    surface_bounds(&s, low, high);
+    surface_free(&s);
+    assert_true(kept.count > 20 && kept.count < 400);
+    assert_true(distance_samples_sound(&kept, low, high, 0.5, 3));
+    for (size_t i = 0; i < 64 * (size_t)kept.count; i++) kept.value[i] += 1; /* so that it shows whose they are */
+    distance_field_lend(lent, &kept);
+    uint64_t seed = 5;
+    int raised = 0;
+    for (int k = 0; k < 3000; k++) {
+        double x[3];
+        distance_value a, b;
+        random_point(&seed, -2 + 4 * (k / 3000.0), x);
+        bool near = fabs(x[0] - 3) < 2 && fabs(x[1] + 2) < 2 && fabs(x[2] - 7 - radius) < 2;
+        distance_field_at(asked, x, true, &a);
+        distance_field_at(lent, x, true, &b);
+        if (near) assert_near(b.d, a.d + 1, 1e-6);
+        if (x[2] < 7) assert_true(b.d == a.d && !memcmp(b.grad, a.grad, sizeof b.grad));
+        raised += near;
+    }
+    assert_true(raised > 10);
+    distance_field_destroy(&asked);
+    distance_field_destroy(&lent);
+    distance_samples_free(&kept);
+    nearest_destroy(&tree);
+}
+
 static void derivatives_are_exact(void **state)
 {
     (void)state;
@@ -149,6 +186,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distance_to_a_sphere_is_off_by_its_bend),
+        cmocka_unit_test(what_was_kept_is_what_is_found),
         cmocka_unit_test(derivatives_are_exact),
         cmocka_unit_test(far_outside_it_says_so_and_inside_it_never_does),
         cmocka_unit_test(threads_that_ask_at_once_get_the_same_bits),

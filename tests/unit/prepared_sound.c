@@ -26,6 +26,9 @@ static prepared small(void)
     t->attach.pair[1] = 3;
     t->side = NEW_ARRAY(uint8_t, 4);
     t->lips.frame = upright;
+    p.fields.part[SEGMENT_CRANIUM] = (distance_samples){
+        .count = 2, .block = NEW_ARRAY(int32_t, 2), .centre = NEW_ARRAY(float, 2), .value = NEW_ARRAY(float, 128)};
+    p.fields.part[SEGMENT_CRANIUM].block[1] = 3;
     p.skin_on_tissue = (embedding){.point_count = 8, .tet = NEW_ARRAY(int32_t, 8), .weight = NEW_ARRAY(double, 32)};
     return p;
 }
@@ -71,6 +74,12 @@ static void every_number_is_looked_at(void **state)
     SPOILT(p.tissue.attach.pair_normal[2], INFINITY);
     SPOILT(p.tissue.lips.x[1], NAN);
     SPOILT(p.tissue.lips.frame.up[0], 1);
+    SPOILT(p.fields.part[SEGMENT_CRANIUM].block[0], -1);
+    SPOILT(p.fields.part[SEGMENT_CRANIUM].block[0], 3); /* the next one's */
+    SPOILT(p.fields.part[SEGMENT_CRANIUM].block[1], 1 << 30);
+    SPOILT(p.fields.part[SEGMENT_CRANIUM].centre[1], NAN);
+    SPOILT(p.fields.part[SEGMENT_CRANIUM].value[127], INFINITY);
+    SPOILT(p.fields.part[SEGMENT_CHIN].count, 1); /* of a bone that the case has not */
     SPOILT(p.skin_on_tissue.tet[7], 1);
     SPOILT(p.skin_on_tissue.tet[7], -2);
     SPOILT(p.skin_on_tissue.weight[31], NAN);

@@ -49,6 +49,30 @@ bool pack_take_surface(const pack_file *f, const char *name, surface *s)
     return s->xyz && s->tri && (!s->rgb || colours == s->vertex_count);
 }
 
+void pack_put_samples(pack_file *f, const char *name, const distance_samples *s)
+{
+    char key[PACK_NAME_SIZE];
+    snprintf(key, sizeof key, "%.24s.block", name);
+    pack_put(f, key, s->block, (size_t)s->count * sizeof *s->block);
+    snprintf(key, sizeof key, "%.24s.centre", name);
+    pack_put(f, key, s->centre, (size_t)s->count * sizeof *s->centre);
+    snprintf(key, sizeof key, "%.24s.value", name);
+    pack_put(f, key, s->value, DISTANCE_BLOCK * (size_t)s->count * sizeof *s->value);
+}
+
+bool pack_take_samples(const pack_file *f, const char *name, distance_samples *s)
+{
+    char key[PACK_NAME_SIZE];
+    int32_t centres = -1, values = -1;
+    snprintf(key, sizeof key, "%.24s.block", name);
+    s->block = pack_take_array(f, key, sizeof *s->block, &s->count);
+    snprintf(key, sizeof key, "%.24s.centre", name);
+    s->centre = pack_take_array(f, key, sizeof *s->centre, &centres);
+    snprintf(key, sizeof key, "%.24s.value", name);
+    s->value = pack_take_array(f, key, DISTANCE_BLOCK * sizeof *s->value, &values);
+    return s->block && s->centre && s->value && centres == s->count && values == s->count;
+}
+
 void pack_put_tissue(pack_file *f, const tissue *t)
 {
     size_t nodes = (size_t)t->mesh.vertex_count, tets = (size_t)t->mesh.tet_count, pairs = (size_t)t->attach.pair_count;

@@ -2,6 +2,7 @@
  * as the counts say; whether its numbers are sound is asked of prepared_sound.h. */
 #pragma once
 #include "app/planner/store/pack_file.h"
+#include "geometry/distance_field.h"
 #include "geometry/tissue.h"
 
 /* As pack_take; NULL too for more elements than four times which an int32_t can count. */
@@ -11,6 +12,9 @@ char *pack_text(const pack_file *f, const char *name); /* NULL where it does not
 /* NAME.xyz, NAME.tri and NAME.rgb; of the name 24 bytes count. */
 void pack_put_surface(pack_file *f, const char *name, const surface *s);
 bool pack_take_surface(const pack_file *f, const char *name, surface *s);
+/* NAME.block, NAME.centre and NAME.value; of the name 24 bytes count. */
+void pack_put_samples(pack_file *f, const char *name, const distance_samples *s);
+bool pack_take_samples(const pack_file *f, const char *name, distance_samples *s);
 /* node.*, tet.*, pair.* and lips */
 void pack_put_tissue(pack_file *f, const tissue *t);
 bool pack_take_tissue(const pack_file *f, tissue *t);

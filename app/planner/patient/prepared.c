@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 /* Raise it whenever the way from case to tissue changes, or what is checked: old files are then made anew. */
-static const double format = 6;
+static const double format = 7;
 
 static const double skin_reach_mm = 2; /* of a skin vertex from the tets that may carry it */
 
@@ -40,9 +40,9 @@ bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
     return ok;
 }
 
-static void part_key(int segment, char key[PACK_NAME_SIZE])
+static void part_key(const char *what, int segment, char key[PACK_NAME_SIZE])
 {
-    snprintf(key, PACK_NAME_SIZE, "part.%s", segment_name((segment_id)segment));
+    snprintf(key, PACK_NAME_SIZE, "%s.%s", what, segment_name((segment_id)segment));
 }
 
 static void fill_pack(const prepared *p, const char hash[HASH_TEXT_SIZE], pack_file *f)
@@ -53,8 +53,10 @@ static void fill_pack(const prepared *p, const char hash[HASH_TEXT_SIZE], pack_f
     pack_put(f, "frame", &p->frame, sizeof p->frame);
     pack_put_surface(f, "skin", &p->skin);
     for (int s = 0; s < SEGMENT_COUNT; s++) {
-        part_key(s, key);
+        part_key("part", s, key);
         pack_put_surface(f, key, &p->segments.part[s]);
+        part_key("field", s, key);
+        pack_put_samples(f, key, &p->fields.part[s]);
     }
     pack_put_surface(f, "kerf", &p->segments.kerf);
     pack_put_tissue(f, &p->tissue);
@@ -75,8 +77,10 @@ static bool take_pack(const pack_file *f, const char hash[HASH_TEXT_SIZE], prepa
     ok = ok && p->points.point && pack_take_surface(f, "skin", &p->skin) &&
          pack_take_surface(f, "kerf", &p->segments.kerf) && pack_take_tissue(f, &p->tissue);
     for (int s = 0; s < SEGMENT_COUNT; s++) {
-        part_key(s, key);
+        part_key("part", s, key);
         ok = ok && pack_take_surface(f, key, &p->segments.part[s]);
+        part_key("field", s, key);
+        ok = ok && pack_take_samples(f, key, &p->fields.part[s]);
     }
     if (report) p->report = json_loads(report, 0, NULL);
     free(report);
@@ -98,10 +102,9 @@ bool prepared_make(const case_file *c, const task *watch, prepared *out, err *e)
     tissue_input in = {&a.closed_skin, &bones, &a.segments, &a.points, &a.frame};
     bool ok = tissue_make(&in, &c->tissue, &p.tissue, &r, e);
     surface_free(&bones);
-    if (ok && task_interrupted(watch)) {
-        tissue_free(&p.tissue);
-        ok = err_set(e, ERR_INTERRUPTED, "interrupted");
-    }
+    if (ok && task_interrupted(watch)) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
+    ok = ok && bone_fields_make(&a.segments, &p.tissue, &p.fields, e);
+    if (!ok) tissue_free(&p.tissue);
     if (ok) {
         p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
         r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;
@@ -178,6 +181,7 @@ void prepared_free(prepared *p)
     segments_free(&p->segments);
     tissue_free(&p->tissue);
     embedding_free(&p->skin_on_tissue);
+    bone_fields_free(&p->fields);
     if (p->report) json_decref(p->report);
     *p = (prepared){0};
 }

@@ -1,6 +1,7 @@
 /* prepared: what depends on the case alone, made once and kept on disk under the hash of its inputs. */
 #pragma once
 #include "app/planner/patient/anatomy.h"
+#include "app/planner/patient/bone_fields.h"
 #include "app/planner/store/content_hash.h"
 #include "geometry/tissue.h"
 #include "geometry/json_file.h"
@@ -13,6 +14,7 @@ typedef struct prepared {
     surface skin; /* as read, LPS mm: what is shown */
     segments segments;
     tissue tissue;
+    bone_fields fields;
     embedding skin_on_tissue; /* one point per vertex of skin */
     json_t *report;           /* repair, cuts, mesh quality, attachment: goes into outcome.json as it is */
     double bones_s, tissue_s; /* wall time of repair and cuts, and of the mesh; NAN where it was read from disk */

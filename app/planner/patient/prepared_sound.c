@@ -83,7 +83,7 @@ bool prepared_is_sound(const prepared *p)
         if (!surface_is_sound(&p->segments.part[s])) return false;
     return points_are_sound(&p->points) && frame_is_sound(&p->frame) && p->skin.triangle_count &&
            surface_is_sound(&p->skin) && surface_is_sound(&p->segments.kerf) &&
-           tissue_is_sound(&p->tissue, &p->segments) &&
+           tissue_is_sound(&p->tissue, &p->segments) && bone_fields_sound(&p->fields, &p->segments) &&
            embedding_is_sound(&p->skin_on_tissue, p->skin.vertex_count, p->tissue.mesh.tet_count) &&
            json_is_object(p->report);
 }

@@ -1,38 +1,34 @@
-#include "geometry/distance_field.h"
 #include "geometry/mem.h"
+#include "geometry/src/distance/distance_blocks.h"
 #include "geometry/vec.h"
 #include <assert.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 
-enum { SIDE = 4, BLOCK = SIDE * SIDE * SIDE }; /* samples are found by the block */
-
-struct distance_field {
-    const nearest *of;
-    double low[3], step, reach;
-    int32_t blocks[3];
-    _Atomic(double) *centre;  /* [blocks0*blocks1*blocks2] signed distance of its middle, NaN until asked for */
-    _Atomic(double *) *block; /* its samples, NULL until asked for */
-};
+int64_t block_grid(const double low[3], const double high[3], double step_mm, double reach_mm, double first[3],
+                   int32_t blocks[3])
+{
+    int64_t count = 1;
+    for (int c = 0; c < 3; c++) {
+        first[c] = low[c] - reach_mm - 2 * step_mm;
+        blocks[c] = (int32_t)ceil((high[c] + reach_mm + 3 * step_mm - first[c]) / (SIDE * step_mm));
+        count *= blocks[c];
+    }
+    return count;
+}
 
 distance_field *distance_field_create(const nearest *of, const double low[3], const double high[3], double step_mm,
                                       double reach_mm)
 {
     assert(step_mm > 0 && reach_mm >= 0);
     distance_field *f = NEW_ARRAY(distance_field, 1);
-    size_t count = 1;
     f->of = of;
     f->step = step_mm;
     f->reach = reach_mm;
-    for (int c = 0; c < 3; c++) {
-        f->low[c] = low[c] - reach_mm - 2 * step_mm;
-        f->blocks[c] = (int32_t)ceil((high[c] + reach_mm + 3 * step_mm - f->low[c]) / (SIDE * step_mm));
-        count *= (size_t)f->blocks[c];
-    }
+    size_t count = (size_t)block_grid(low, high, step_mm, reach_mm, f->low, f->blocks);
     f->block = mem_alloc(count, sizeof *f->block);
     f->centre = mem_alloc(count, sizeof *f->centre);
-    for (size_t b = 0; b < count; b++) atomic_init(&f->centre[b], NAN);
+    for (size_t b = 0; b < count; b++) atomic_init(&f->centre[b], (float)NAN);
     return f;
 }
 
@@ -40,7 +36,9 @@ void distance_field_destroy(distance_field **f)
 {
     if (!*f) return;
     size_t count = (size_t)(*f)->blocks[0] * (size_t)(*f)->blocks[1] * (size_t)(*f)->blocks[2];
-    for (size_t b = 0; b < count; b++) free(atomic_load(&(*f)->block[b]));
+    const distance_samples *lent = (*f)->lent;
+    for (int32_t k = 0; lent && k < lent->count; k++) atomic_store(&(*f)->block[lent->block[k]], NULL);
+    for (size_t b = 0; b < count; b++) free((void *)atomic_load(&(*f)->block[b]));
     free((void *)(*f)->block);
     free((void *)(*f)->centre);
     free(*f);
@@ -49,10 +47,11 @@ void distance_field_destroy(distance_field **f)
 
 /* The sign changes only where the surface passes: a sample takes it from a neighbour that is farther from the
  * surface than from the sample; the others are asked. */
-static double *find_block(const distance_field *f, const int32_t at[3])
+static float *find_block(const distance_field *f, const int32_t at[3])
 {
     static const int back[3] = {1, SIDE, SIDE * SIDE};
-    double *value = NEW_ARRAY(double, BLOCK), place[BLOCK][3];
+    float *value = NEW_ARRAY(float, BLOCK);
+    double place[BLOCK][3];
     int32_t triangle[BLOCK];
     for (int s = 0; s < BLOCK; s++) {
         int k[3] = {s % SIDE, s / SIDE % SIDE, s / (SIDE * SIDE)};
@@ -60,47 +59,42 @@ static double *find_block(const distance_field *f, const int32_t at[3])
         int known = -1;
         for (int c = 0; c < 3; c++) {
             x[c] = f->low[c] + f->step * (SIDE * at[c] + k[c]);
-            if (k[c] > 0 && fabs(value[s - back[c]]) > f->step) known = s - back[c];
+            if (k[c] > 0 && fabsf(value[s - back[c]]) > (float)f->step) known = s - back[c];
         }
         int beside = s - back[k[0] > 0 ? 0 : k[1] > 0 ? 1 : 2];
         if (s > 0) {
             vec_copy(place[beside], place[s]);
             triangle[s] = triangle[beside];
-            value[s] = nearest_point_onward(f->of, x, place[s], &triangle[s]);
+            value[s] = (float)nearest_point_onward(f->of, x, place[s], &triangle[s]);
         } else
-            value[s] = nearest_point(f->of, x, place[s], &triangle[s]);
+            value[s] = (float)nearest_point(f->of, x, place[s], &triangle[s]);
         if (known >= 0 ? value[known] < 0 : nearest_inside(f->of, x)) value[s] = -value[s];
     }
     return value;
 }
 
-static size_t slot_of(const distance_field *f, const int32_t at[3])
+bool block_is_far(const distance_field *f, const int32_t at[3])
 {
-    return ((size_t)at[2] * (size_t)f->blocks[1] + (size_t)at[1]) * (size_t)f->blocks[0] + (size_t)at[0];
-}
-
-/* Is all of the block farther outside than the reach? */
-static bool is_far(const distance_field *f, const int32_t at[3])
-{
-    size_t slot = slot_of(f, at);
-    double d = atomic_load(&f->centre[slot]), side = SIDE * f->step;
+    size_t slot = block_slot(f, at);
+    float d = atomic_load(&f->centre[slot]);
+    double side = SIDE * f->step;
     if (isnan(d)) {
         double x[3];
         for (int c = 0; c < 3; c++) x[c] = f->low[c] + side * at[c] + (SIDE - 1) * f->step / 2;
-        d = nearest_point(f->of, x, NULL, NULL);
-        if (d > f->reach && nearest_inside(f->of, x)) d = -d;
+        d = (float)nearest_point(f->of, x, NULL, NULL);
+        if ((double)d > f->reach && nearest_inside(f->of, x)) d = -d;
         atomic_store(&f->centre[slot], d);
     }
-    return d > f->reach + side * sqrt(3) / 2;
+    return (double)d > f->reach + side * sqrt(3) / 2;
 }
 
 /* Two threads may find the same block at the same time: the values are the same, one copy stays. */
-static const double *get_block(const distance_field *f, const int32_t at[3])
+const float *block_get(const distance_field *f, const int32_t at[3])
 {
-    _Atomic(double *) *slot = &f->block[slot_of(f, at)];
-    double *there = atomic_load(slot);
+    _Atomic(const float *) *slot = &f->block[block_slot(f, at)];
+    const float *there = atomic_load(slot);
     if (there) return there;
-    double *found = find_block(f, at);
+    float *found = find_block(f, at);
     if (atomic_compare_exchange_strong(slot, &there, found)) return found;
     free(found);
     return there;
@@ -127,16 +121,16 @@ static void spline_weights(double t, double w[3][4])
 /* The 64 samples about x. */
 static void gather(const distance_field *f, const int32_t first[3], double sample[64])
 {
-    const double *held = NULL;
+    const float *held = NULL;
     int32_t held_at[3] = {-1, -1, -1};
     for (int s = 0; s < 64; s++) {
         int32_t k[3] = {first[0] + s % 4, first[1] + s / 4 % 4, first[2] + s / 16}, at[3];
         for (int c = 0; c < 3; c++) at[c] = k[c] / SIDE;
         if (at[0] != held_at[0] || at[1] != held_at[1] || at[2] != held_at[2]) {
-            held = get_block(f, at);
+            held = block_get(f, at);
             for (int c = 0; c < 3; c++) held_at[c] = at[c];
         }
-        sample[s] = held[(k[2] % SIDE * SIDE + k[1] % SIDE) * SIDE + k[0] % SIDE];
+        sample[s] = (double)held[(k[2] % SIDE * SIDE + k[1] % SIDE) * SIDE + k[0] % SIDE];
     }
 }
 
@@ -152,7 +146,7 @@ void distance_field_at(const distance_field *f, const double x[3], bool with_hes
         block[c] = (int32_t)at / SIDE;
         spline_weights(at - floor(at), w[c]);
     }
-    if (is_far(f, block)) return;
+    if (block_is_far(f, block)) return;
     gather(f, first, sample);
     out->d = 0;
     for (int c = 0; c < 3; c++) out->grad[c] = 0;
