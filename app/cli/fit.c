@@ -1,6 +1,7 @@
 /* gnathos fit CASE -o DIR: the template of heads in the shape of a patient. */
 #include "app/cli/fit_write.h"
 #include "app/cli/verb.h"
+#include "app/planner/identity/head_complete.h"
 #include "app/planner/identity/template_get.h"
 #include "geometry/clock.h"
 #if GNATHOS_WITH_RENDER
@@ -10,10 +11,11 @@
 #include <stdlib.h>
 
 typedef struct fit_options {
-    bool no_landmarks, no_pictures;
+    bool no_landmarks, no_pictures, complete;
+    const char *model;
 } fit_options;
 
-enum { KEY_NO_LANDMARKS = KEY_OWN, KEY_NO_PICTURES };
+enum { KEY_NO_LANDMARKS = KEY_OWN, KEY_NO_PICTURES, KEY_COMPLETE, KEY_MODEL };
 
 static const double range_mm = 2; /* end of the colours: beyond the 1.5 mm that 95 % of a good fit lie within */
 
@@ -24,34 +26,67 @@ static const struct argp_option options[] = {OPTION_OUTPUT("The folder of result
                                              {"no-landmarks", KEY_NO_LANDMARKS, NULL, 0,
                                               "Find the place by the surfaces alone, though the case has landmarks", 0},
                                              {"no-pictures", KEY_NO_PICTURES, NULL, 0, "Leave the pictures out", 0},
+                                             {"complete", KEY_COMPLETE, NULL, 0,
+                                              "Make a whole head of a scan without skull, mandible or teeth, and close "
+                                              "an open mouth by turning the mandible about its condyles",
+                                              0},
+                                             {"model", KEY_MODEL, "MODEL", 0,
+                                              "With --complete: what the scan lacks is that of the model's likeliest "
+                                              "head, not of the mean one",
+                                              0},
                                              {0}};
 
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
     fit_options *o = r->own;
-    (void)arg, (void)state;
     switch (key) {
     case KEY_NO_LANDMARKS: o->no_landmarks = true; return 0;
     case KEY_NO_PICTURES: o->no_pictures = true; return 0;
+    case KEY_COMPLETE: o->complete = true; return 0;
+    case KEY_MODEL: o->model = arg; return 0;
+    case ARGP_KEY_END:
+        if (o->model && !o->complete) command_usage(state, "--model says of what --complete completes; give both");
+        return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
 
-static bool fit(run_context *r, const head_template *t, head_scan *s, head_fit *out, char told[256], err *e)
+/* Without --complete it has to have all that check asks for. */
+static bool open_case(run_context *r, err *e)
+{
+    const fit_options *o = r->own;
+    const char *path = r->argument[0];
+    case_file *c = &r->patient;
+    if (!case_file_load_skin(path, c, e) || o->complete) return !e->code;
+    for (int p = CASE_SKULL; p <= CASE_MANDIBLE; p++)
+        if (!*c->surface[p])
+            return err_at(e, ERR_INPUT, c->path, 0, p == CASE_SKULL ? "surfaces.skull" : "surfaces.mandible",
+                          "is missing; name its file, or let `gnathos fit --complete` guess it");
+    return case_file_load(path, c, e);
+}
+
+static bool fit(run_context *r, const head_template *t, head_scan *s, head_fit *out, head_completion *how,
+                char told[256], err *e)
 {
     const fit_options *o = r->own;
     head_fit_params p = head_fit_params_default();
+    head_model m = {0};
     head_place place;
-    double start = clock_s();
-    if (!head_scan_read(&r->patient, !o->no_landmarks, s, e)) return false;
-    task_progress(&r->watch, "place", 0);
-    if (!head_place_find(t, s, &r->watch, &place, told, e)) return false;
-    double placed_s = clock_s() - start;
-    if (*told) command_note(&r->common, "%s", told);
-    if (!head_fit_from(t, s, &p, &place, &r->watch, out, e)) return false;
+    if (o->model && !head_model_read(o->model, t, &m, e)) return false;
+    double start = clock_s(), placed_s = 0;
+    bool ok = head_scan_read(&r->patient, !o->no_landmarks, s, e);
+    if (ok) task_progress(&r->watch, "place", 0);
+    ok = ok && head_place_find(t, s, &r->watch, &place, told, e);
+    placed_s = clock_s() - start;
+    if (ok && *told) command_note(&r->common, "%s", told);
+    if (ok && o->complete)
+        ok = head_complete(t, s, o->model ? &m : NULL, &place, &r->watch, out, how, e);
+    else
+        ok = ok && head_fit_from(t, s, &p, &place, &r->watch, out, e);
+    head_model_free(&m);
     out->place_s = placed_s;
     out->total_s += placed_s;
-    return true;
+    return ok;
 }
 
 static bool write_pictures(const run_context *r, const fit_record *of, err *e)
@@ -85,20 +120,33 @@ static bool write_all(run_context *r, const fit_record *of, const json_t *record
     return ok;
 }
 
+static void warn_part(const run_context *r, const fit_record *of, case_surface p)
+{
+    double absent = fit_share(of->fit, p, GUESS_ABSENT), closed = fit_share(of->fit, p, GUESS_CLOSED);
+    if (absent > told_share)
+        command_note(&r->common, "%s: warning: %.0f %% of it is guessed from the %s: the scan has %s",
+                     case_surface_name(p), 100 * absent,
+                     of->completion && of->completion->likeliest.mode_count ? "model" : "template",
+                     of->scan->part[p].triangle_count ? "nothing there" : "no such surface");
+    if (closed > 0)
+        command_note(&r->common,
+                     "%s: warning: %.0f %% of it is guessed: it went with the mouth, which the scan has open",
+                     case_surface_name(p), 100 * closed);
+}
+
 static void warn(const run_context *r, const fit_record *of)
 {
-    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
-        double share = fit_guessed_share(of->fit, (case_surface)p);
-        if (share > told_share)
-            command_note(&r->common, "%s: warning: %.0f %% of it is guessed from the template: the scan has %s",
-                         case_surface_name((case_surface)p), 100 * share,
-                         of->scan->part[p].triangle_count ? "nothing there" : "no such surface");
-    }
+    char text[160];
+    if (of->completion && of->completion->jaw.stop != JAW_NOT_OPEN)
+        command_note(&r->common, "warning: the bite is guessed: %s",
+                     head_closing_text(&of->completion->jaw, text, sizeof text));
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) warn_part(r, of, (case_surface)p);
 }
 
 static void print_plain(const run_context *r, const fit_record *of)
 {
     const head_fit *f = of->fit;
+    char text[160];
     printf("%s: placed by %s, turned by %.1f deg, size %.3f of the template's\n", r->patient.name,
            f->place.by_landmarks ? "landmarks" : "its surfaces", rigid_angle(&f->place.motion) * 180 / 3.14159265358979,
            f->place.scale);
@@ -112,6 +160,7 @@ static void print_plain(const run_context *r, const fit_record *of)
             printf("%9s %9s %9s", "-", "-", "-");
         printf(" %9d %7.1f %%\n", g->vertices, 100 * fit_guessed_share(f, (case_surface)p));
     }
+    if (of->completion) printf("%s\n", head_closing_text(&of->completion->jaw, text, sizeof text));
     printf("guessed: where the scan has no surface the shape is the template's, bent along\n");
     printf("tissue: smallest J %.3f, %d tets inside out; %.1f s (place %.1f, bones %.1f, tissue %.1f)\n", f->min_j,
            f->inverted_tets, f->total_s, f->place_s, f->bones_s, f->tissue_s);
@@ -123,9 +172,10 @@ static bool run(run_context *r, err *e)
     head_template t = {0};
     head_scan s = {0};
     head_fit f = {0};
+    head_completion how = {0};
     char told[256] = "";
-    bool ok = head_template_get(&r->watch, &t, NULL, e) && fit(r, &t, &s, &f, told, e);
-    const fit_record of = {r->argument[0], &t, &s, &f, told};
+    bool ok = head_template_get(&r->watch, &t, NULL, e) && fit(r, &t, &s, &f, &how, told, e);
+    const fit_record of = {r->argument[0], &t, &s, &f, told, ((fit_options *)r->own)->complete ? &how : NULL};
     if (ok) warn(r, &of);
     json_t *record = ok ? record_json(&fit_record_table, &of) : NULL;
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
@@ -150,7 +200,8 @@ const verb verb_fit = {.arguments = "CASE -o DIR",
                        .argument_count = 1,
                        .missing_argument = "name a case",
                        .missing_output = "name the folder of results with -o",
-                       .need = NEED_CASE | NEED_OUTPUT,
+                       .need = NEED_OUTPUT,
                        .own_size = sizeof(fit_options),
                        .parse = parse,
+                       .early = open_case,
                        .run = run};

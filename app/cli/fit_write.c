@@ -13,17 +13,17 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static void colour(surface *s, const double *gap_mm, double range_mm)
+static void colour(surface *s, const double *gap_mm, const uint8_t *guessed, double range_mm)
 {
 #if GNATHOS_WITH_RENDER
     s->rgb = NEW_ARRAY(uint8_t, 3 * (size_t)s->vertex_count);
     for (size_t v = 0; v < (size_t)s->vertex_count; v++) {
         double rgb[3];
-        colormap_color(COLORMAP_VIRIDIS, gap_mm[v], 0, range_mm, rgb);
+        colormap_color(COLORMAP_VIRIDIS, guessed[v] ? (double)NAN : gap_mm[v], 0, range_mm, rgb);
         for (size_t c = 0; c < 3; c++) s->rgb[3 * v + c] = (uint8_t)lround(255 * rgb[c]);
     }
 #else
-    (void)s, (void)gap_mm, (void)range_mm;
+    (void)s, (void)gap_mm, (void)guessed, (void)range_mm;
 #endif
 }
 
@@ -39,7 +39,7 @@ static bool write_part(const fit_record *r, case_surface part, double range_mm, 
     snprintf(file, sizeof file, "%s.vtp", case_surface_name(part));
     char *vtp = output_dir_file(d, file);
     bool ok = mesh_write_surface_arrays(&s, arrays, 2, vtp, e);
-    colour(&s, r->fit->gap_mm[part], range_mm);
+    colour(&s, r->fit->gap_mm[part], r->fit->guessed[part], range_mm);
     ok = ok && mesh_write_surface(&s, ply, e);
     free(ply);
     free(vtp);

@@ -3,6 +3,7 @@
 #include "render/compose.h"
 #include "render/gallery.h"
 #include "render/png_file.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +17,8 @@ static surface fitted(const fit_pictures *p, bool bones, double **gap)
     for (int i = bones ? CASE_SKULL : CASE_SKIN; i < (bones ? CASE_SURFACE_COUNT : CASE_SKULL); i++) {
         surface one = head_part(p->head, &p->fit->shape, (case_surface)i), sum = surface_joined(&all, &one);
         distance = GROW_ARRAY(double, distance, sum.vertex_count);
-        memcpy(distance + all.vertex_count, p->fit->gap_mm[i], (size_t)one.vertex_count * sizeof *distance);
+        for (size_t v = 0; v < (size_t)one.vertex_count; v++)
+            distance[(size_t)all.vertex_count + v] = p->fit->guessed[i][v] ? (double)NAN : p->fit->gap_mm[i][v];
         surface_free(&one);
         surface_free(&all);
         all = sum;
@@ -61,7 +63,7 @@ bool fit_residual_write(const fit_pictures *p, bool bones, double range_mm, cons
     double *gap;
     landmarks points;
     subject s = {
-        .case_name = "", .plan_text = p->title, .signed_caption = "distance to the scan, mm; dark grey: no scan"};
+        .case_name = "", .plan_text = p->title, .signed_caption = "distance to the scan, mm; dark grey: guessed"};
     if (!frame_of(p, &points, &s.frame, e)) return false;
     surface shape = fitted(p, bones, &gap);
     s.skin_before = s.skin_after = &shape;

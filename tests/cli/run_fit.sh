@@ -26,10 +26,10 @@ def off(path, x, f):
         for p in x: out.write("%.9f %.9f %.9f\n" % tuple(p))
         for t in f: out.write("3 %d %d %d\n" % tuple(t))
 points = json.load(open(work + "/t/landmarks.mrk.json"))
-def case(name, move, cut, flip=False):
+def case(name, move, cut, flip=False, parts=("skin", "skull", "mandible", "upper_teeth", "lower_teeth")):
     folder = f"{work}/{name}"
     os.mkdir(folder)
-    for part in ("skin", "skull", "mandible", "upper_teeth", "lower_teeth"):
+    for part in parts:
         x, f = ply(part)
         if part == "skin" and cut: f = [t for t in f if all(-100 < x[v][2] < 90 for v in t)]
         if flip: f = [t[::-1] for t in f]
@@ -38,9 +38,10 @@ def case(name, move, cut, flip=False):
     for p in moved["markups"][0]["controlPoints"]: p["position"] = move(p["position"])
     json.dump(moved, open(folder + "/landmarks.mrk.json", "w"))
     json.dump({"gnathos": 1, "name": name, "units": "mm", "frame": "LPS", "landmarks": "landmarks.mrk.json",
-               "surfaces": {p: p + ".off" for p in ("skin", "skull", "mandible", "upper_teeth", "lower_teeth")}},
+               "surfaces": {p: p + ".off" for p in parts}},
               open(folder + "/case.json", "w"))
 case("patient", turn, True)
+case("face", turn, True, parts=("skin",))
 case("metres", lambda p: [0.001 * c for c in p], False)
 case("mirrored", lambda p: [-p[0], p[1], p[2]], False, True)
 PY
@@ -82,6 +83,25 @@ refused() { # CASE WORDS STATUS
     [ $status -eq "$3" ] && [ ! -e "$work/none" ] || fail "$1: status $status: $(cat "$work/stderr")"
     grep -qiF -- "$2" "$work/stderr" || fail "$1: wanted '$2': $(cat "$work/stderr")"
 }
+refused face 'face/case.json: surfaces.skull: is missing; name its file, or let `gnathos fit --complete` guess it' 3
+status=0
+"$gnathos" fit "$work/face" -o "$work/none" --model m >/dev/null 2>"$work/stderr" || status=$?
+[ $status -eq 2 ] && grep -q -- '--complete' "$work/stderr" || fail "--model alone: status $status: $(cat "$work/stderr")"
+"$gnathos" fit "$work/face" -o "$work/whole" --complete --no-pictures --json >"$work/whole.json" 2>"$work/told.txt"
+/usr/bin/python3 "$here/check_record.py" "$gnathos" "$work/whole.json"
+grep -q '^gnathos: mandible: warning: 100 % of it is guessed from the template: the scan has no such surface$' "$work/told.txt" ||
+    fail "nothing warns of a guessed mandible: $(cat "$work/told.txt")"
+/usr/bin/python3 - "$work" <<'PY'
+import json, sys
+work = sys.argv[1]
+f = json.load(open(work + "/whole.json"))
+assert f["completion"]["jaw"]["stop"] == "not_open" and f["completion"]["jaw"]["turn_deg"] == 0, f["completion"]
+assert f["parts"]["skin"]["mean_mm"] < 0.2 and f["parts"]["skin"]["guessed_share"] < 0.6, f["parts"]["skin"]
+for part in ("skull", "mandible", "upper_teeth", "lower_teeth"):
+    p = f["parts"][part]
+    assert not p["scanned"] and p["guessed_share"] == 1 and p["mean_mm"] is None, (part, p)
+assert "completion" not in json.load(open(work + "/fit.json"))
+PY
 refused metres metre 4
 refused mirrored mirror 4
 refused absent 'absent' 3

@@ -3,11 +3,14 @@
 
 static const head_fit *fit_of(const void *of) { return ((const fit_record *)of)->fit; }
 
-double fit_guessed_share(const head_fit *f, case_surface part)
+double fit_share(const head_fit *f, case_surface part, head_guess why)
 {
-    const registration_gaps *g = &f->gaps[part];
-    return g->vertices ? 1 - (double)g->with_target / g->vertices : 0;
+    int32_t count = f->gaps[part].vertices, found = 0;
+    for (int32_t v = 0; v < count; v++) found += f->guessed[part][v] == why;
+    return count ? (double)found / count : 0;
 }
+
+double fit_guessed_share(const head_fit *f, case_surface part) { return 1 - fit_share(f, part, GUESS_NONE); }
 
 bool fit_point_is_guessed(const fit_record *r, const head_point *p)
 {
@@ -45,13 +48,14 @@ static double total_s(const void *of) { return fit_of(of)->total_s; }
 typedef struct part_fit {
     bool scanned;
     int vertices, with_target;
-    double guessed, mean, p95, max;
+    double guessed, closed, mean, p95, max;
 } part_fit;
 static const record_row part_row[] = {
     ROW(part_fit, scanned, "scanned", NULL, "whether the case has this surface; if not, all of it is guessed"),
     ROW(part_fit, vertices, "vertices", NULL, "of the template"),
     ROW(part_fit, with_target, "with_target", NULL, "of these, where the scan has a surface; the others are guessed"),
-    ROW(part_fit, guessed, "guessed_share", NULL, "share of the vertices that are guessed"),
+    ROW(part_fit, guessed, "guessed_share", NULL, "share of the vertices that are guessed: absent and closed"),
+    ROW(part_fit, closed, "closed_share", NULL, "share that went with a mouth that was closed (--complete)"),
     ROW(part_fit, mean, "mean_mm", "mm", "distance to the scan, where it has a surface"),
     ROW(part_fit, p95, "p95_mm", "mm", "the same, 95 % are nearer"),
     ROW(part_fit, max, "max_mm", "mm", "the same, the farthest"),
@@ -69,6 +73,7 @@ static const void *next_part(const void *of, int *i, const char **key, void *spa
                     .vertices = g->vertices,
                     .with_target = g->with_target,
                     .guessed = fit_guessed_share(fit_of(of), (case_surface)*i),
+                    .closed = fit_share(fit_of(of), (case_surface)*i, GUESS_CLOSED),
                     .mean = any ? g->mean_mm : (double)NAN,
                     .p95 = any ? g->p95_mm : (double)NAN,
                     .max = any ? g->max_mm : (double)NAN};
@@ -88,6 +93,33 @@ static const char *template_numbering(const void *of, char *space)
     return (void)space, ((const fit_record *)of)->head->numbering;
 }
 
+static const void *next_coefficient(const void *of, int *i, const char **key, void *space)
+{
+    (void)key, (void)space;
+    const head_likeliest *l = &((const head_completion *)of)->likeliest;
+    return *i < l->mode_count ? &l->p[*i] : NULL;
+}
+static bool by_model(const void *of) { return ((const head_completion *)of)->likeliest.mode_count > 0; }
+
+static const record_row completion_row[] = {
+    ROW_WORD(head_completion, jaw.stop, "jaw.stop", "not_open|at_bite|at_teeth|at_limit",
+             "what ended the turn that closes an open mouth: the template's overlap of the incisors, other teeth, the "
+             "joint"),
+    ROW(head_completion, jaw.open_mm, "jaw.open_mm", "mm",
+        "by which the incisors' edges lie apart, upwards, from where they overlap as the template's do"),
+    ROW(head_completion, jaw.turn_deg, "jaw.turn_deg", "deg", "by which the mandible was turned up about its condyles"),
+    ROW(head_completion, jaw.left_mm, "jaw.left_mm", "mm", "of open_mm that is left"),
+    {.kind = RECORD_LIST,
+     .next = next_coefficient,
+     .item = RECORD_NUMBER,
+     .name = "p",
+     .when = by_model,
+     .help = "coefficients of the model's likeliest head, in standard deviations"},
+    ROW_WHEN(by_model, head_completion, likeliest.noise_mm, "noise_mm", "mm",
+             "standard deviation that a coordinate of the scan was taken to have for that"),
+};
+static const record_table completion_table = {.title = "How a scan was made a whole head", RECORD_ROWS(completion_row)};
+
 static const record_row rows[] = {
     ROW(fit_record, patient, "case", NULL, "path of the case"),
     ROW_TEXT(template_numbering, "numbering", "of the template (gnathos template)"),
@@ -105,6 +137,13 @@ static const record_row rows[] = {
     ROW(fit_record, told, "place.told", NULL, "what was found out of the ordinary, as other axes; or empty"),
     ROW_MAP(next_part, "part", OBJECT, &part_table, "parts", NULL, "how each part lies on the scan"),
     ROW_TEXTS(next_guessed_point, "guessed_landmarks", "labels that hang where the scan has nothing"),
+    {.kind = RECORD_OBJECT,
+     .offset = offsetof(fit_record, completion),
+     .pointer = true,
+     .optional = true,
+     .table = &completion_table,
+     .name = "completion",
+     .help = "with --complete"},
     ROW_FOUND(NUMBER, min_j, "tissue.min_j", NULL,
               "smallest volume of a tet, at rest and neutral, against the template's at the patient's size"),
     ROW_FOUND(NUMBER, inverted, "tissue.inverted_tets", NULL, "tets turned inside out; always 0"),

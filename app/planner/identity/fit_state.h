@@ -24,5 +24,6 @@ bool fit_bones(fit_state *f, err *e) MUST_CHECK;
  * the tissue goes with it, the rest through a lattice. */
 bool fit_tissue(fit_state *f, err *e) MUST_CHECK;
 bool fit_skin(fit_state *f, err *e) MUST_CHECK;
-/* rest[3*nodes]: what the template's tissue does from neutral to rest, turned and stretched as the tissue there is. */
-void fit_rest(const fit_state *f, double *rest);
+/* rest[3*nodes]: what the template's tissue does from neutral to rest, turned and stretched as the tissue is at
+ * nodes[3*nodes], less where that would turn a tet inside out. */
+void fit_rest(const head_template *t, const double *nodes, double *rest);

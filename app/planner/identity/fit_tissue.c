@@ -167,26 +167,47 @@ static void add_gradient(const double *const X[4], const double *const x[4], dou
     for (int a = 0; a < 4; a++) sum[a][9] += volume;
 }
 
-void fit_rest(const fit_state *f, double *rest)
+/* Nodes of tets that are inside out at rest go half as far, until there are none. */
+static void soften_rest(const tetmesh *m, const double *nodes, double *rest)
 {
-    const tetmesh *m = &f->t->tissue.mesh;
+    uint8_t *half = NEW_ARRAY(uint8_t, m->vertex_count);
+    for (int k = 0, some = 1; some && k < 10; k++) {
+        some = 0;
+        memset(half, 0, (size_t)m->vertex_count);
+        for (size_t i = 0; i < (size_t)m->tet_count; i++) {
+            const double *x[4];
+            for (size_t c = 0; c < 4; c++) x[c] = rest + 3 * (size_t)m->tet[4 * i + c];
+            if (vec_six_volume(x[0], x[1], x[2], x[3]) > 0) continue;
+            for (size_t c = 0; c < 4; c++) half[m->tet[4 * i + c]] = 1;
+            some = 1;
+        }
+        for (size_t i = 0; i < 3 * (size_t)m->vertex_count; i++)
+            if (half[i / 3]) rest[i] = 0.5 * (rest[i] + nodes[i]);
+    }
+    free(half);
+}
+
+void fit_rest(const head_template *t, const double *nodes, double *rest)
+{
+    const tetmesh *m = &t->tissue.mesh;
     double *sum = NEW_ARRAY(double, 10 * (size_t)m->vertex_count);
-    for (size_t t = 0; t < (size_t)m->tet_count; t++) {
+    for (size_t i = 0; i < (size_t)m->tet_count; i++) {
         const double *X[4], *x[4];
         double *at[4];
         for (size_t k = 0; k < 4; k++) {
-            size_t v = (size_t)m->tet[4 * t + k];
+            size_t v = (size_t)m->tet[4 * i + k];
             X[k] = m->xyz + 3 * v;
-            x[k] = f->nodes + 3 * v;
+            x[k] = nodes + 3 * v;
             at[k] = sum + 10 * v;
         }
         add_gradient(X, x, at);
     }
     for (size_t v = 0; v < (size_t)m->vertex_count; v++) {
         double u[3], moved[3];
-        vec_sub(f->t->rest + 3 * v, m->xyz + 3 * v, u);
+        vec_sub(t->rest + 3 * v, m->xyz + 3 * v, u);
         mat_apply(sum + 10 * v, u, moved);
-        vec_axpy(f->nodes + 3 * v, 1 / sum[10 * v + 9], moved, rest + 3 * v);
+        vec_axpy(nodes + 3 * v, 1 / sum[10 * v + 9], moved, rest + 3 * v);
     }
     free(sum);
+    soften_rest(m, nodes, rest);
 }

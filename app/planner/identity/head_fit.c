@@ -28,14 +28,21 @@ static fit_state begin(const head_template *t, const head_scan *s, const head_fi
     size_t n = 3 * (size_t)t->tissue.mesh.vertex_count;
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
         if (s->part[p].triangle_count) f.target[p] = target_surface_make(&s->part[p]);
-        f.placed[p] = surface_copy(&t->part[p]);
-        head_place_apply(place, t->part[p].xyz, t->part[p].vertex_count, f.placed[p].xyz);
+        if (params->from) {
+            f.placed[p] = head_part(t, params->from, (case_surface)p);
+        } else {
+            f.placed[p] = surface_copy(&t->part[p]);
+            head_place_apply(place, t->part[p].xyz, t->part[p].vertex_count, f.placed[p].xyz);
+        }
         f.at[p] = surface_copy(&f.placed[p]);
     }
     f.buried[CASE_UPPER_TEETH] = fit_buried(&t->part[CASE_UPPER_TEETH], &t->part[CASE_SKULL]);
     f.buried[CASE_LOWER_TEETH] = fit_buried(&t->part[CASE_LOWER_TEETH], &t->part[CASE_MANDIBLE]);
     f.placed_nodes = NEW_ARRAY(double, n);
-    head_place_apply(place, t->tissue.mesh.xyz, t->tissue.mesh.vertex_count, f.placed_nodes);
+    if (params->from)
+        memcpy(f.placed_nodes, params->from->neutral, n * sizeof *f.placed_nodes);
+    else
+        head_place_apply(place, t->tissue.mesh.xyz, t->tissue.mesh.vertex_count, f.placed_nodes);
     f.nodes = COPY_ARRAY(double, f.placed_nodes, n);
     return f;
 }
@@ -64,7 +71,7 @@ static void measure_part(const fit_state *f, case_surface p, head_fit *out)
         target_point hit;
         double d = HUGE_VAL;
         if (f->target[p]) d = target_surface_ask(f->target[p], s->xyz + 3 * v, normal + 3 * v, &measured, &hit);
-        out->guessed[p][v] = d == HUGE_VAL;
+        out->guessed[p][v] = d == HUGE_VAL ? GUESS_ABSENT : GUESS_NONE;
         out->gap_mm[p][v] = d == HUGE_VAL ? (double)NAN : d;
         if (d < HUGE_VAL) gap[count++] = d;
     }
@@ -73,22 +80,22 @@ static void measure_part(const fit_state *f, case_surface p, head_fit *out)
     free(normal);
 }
 
-/* Of the tissue at rest and at neutral against the template, the place's size taken out. */
-static void measure_tets(const fit_state *f, head_fit *out)
+void head_fit_measure_tets(const head_template *t, head_fit *f)
 {
-    const tetmesh *m = &f->t->tissue.mesh;
-    double size = pow(out->place.scale, 3);
-    const double *pairs[2][2] = {{f->t->rest, out->shape.rest}, {m->xyz, out->shape.neutral}};
-    out->min_j = HUGE_VAL;
+    const tetmesh *m = &t->tissue.mesh;
+    double size = pow(f->place.scale, 3);
+    const double *pairs[2][2] = {{t->rest, f->shape.rest}, {m->xyz, f->shape.neutral}};
+    f->min_j = HUGE_VAL;
+    f->inverted_tets = 0;
     for (int k = 0; k < 2; k++)
-        for (size_t t = 0; t < (size_t)m->tet_count; t++) {
+        for (size_t i = 0; i < (size_t)m->tet_count; i++) {
             const double *p[2][4];
-            for (int i = 0; i < 2; i++)
-                for (size_t c = 0; c < 4; c++) p[i][c] = pairs[k][i] + 3 * (size_t)m->tet[4 * t + c];
+            for (int side = 0; side < 2; side++)
+                for (size_t c = 0; c < 4; c++) p[side][c] = pairs[k][side] + 3 * (size_t)m->tet[4 * i + c];
             double before = vec_six_volume(p[0][0], p[0][1], p[0][2], p[0][3]),
                    after = vec_six_volume(p[1][0], p[1][1], p[1][2], p[1][3]);
-            out->min_j = fmin(out->min_j, after / before / size);
-            out->inverted_tets += !(after > 0);
+            f->min_j = fmin(f->min_j, after / before / size);
+            f->inverted_tets += !(after > 0);
         }
 }
 
@@ -101,8 +108,8 @@ static void finish(fit_state *f, head_fit *out)
     }
     out->shape.neutral = COPY_ARRAY(double, f->nodes, n);
     out->shape.rest = NEW_ARRAY(double, n);
-    fit_rest(f, out->shape.rest);
-    measure_tets(f, out);
+    fit_rest(f->t, f->nodes, out->shape.rest);
+    head_fit_measure_tets(f->t, out);
     out->iterations = f->cost.iterations;
     out->factorisations = f->cost.factorisations;
 }

@@ -8,16 +8,23 @@
 #include "sim/registration.h"
 
 typedef struct head_fit_params {
-    bool use_landmarks; /* for the place; they never pull on the bent template */
+    bool use_landmarks;     /* for the place; they never pull on the bent template */
+    const head_shape *from; /* what is bent, in the patient's frame; NULL: the template as it was placed */
 } head_fit_params;
 head_fit_params head_fit_params_default(void);
 
+/* Why a vertex is not where the scan has a surface. */
+typedef enum head_guess {
+    GUESS_NONE,   /* it is */
+    GUESS_ABSENT, /* the scan has none there: the place is the template's, bent along */
+    GUESS_CLOSED  /* the scan has it in another place: it went with a mouth that was closed (head_complete) */
+} head_guess;
+
 typedef struct head_fit {
     head_place place;
-    head_shape shape;                   /* in the patient's frame */
-    double *gap_mm[CASE_SURFACE_COUNT]; /* [vertex_count] distance to the patient's surface; NAN: no target there */
-    uint8_t
-        *guessed[CASE_SURFACE_COUNT]; /* [vertex_count] 1: the scan has nothing there, the place is the template's */
+    head_shape shape;                     /* in the patient's frame */
+    double *gap_mm[CASE_SURFACE_COUNT];   /* [vertex_count] distance to the patient's surface; NAN: no target there */
+    uint8_t *guessed[CASE_SURFACE_COUNT]; /* [vertex_count] head_guess */
     registration_gaps gaps[CASE_SURFACE_COUNT]; /* from the template's vertices to the patient's surface */
     double min_j;                               /* of the tissue against the template, rest and neutral */
     int32_t inverted_tets;
@@ -32,4 +39,6 @@ bool head_fit_make(const head_template *t, const head_scan *s, const head_fit_pa
 /* The same from a place that is known. */
 bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_params *p, const head_place *place,
                    const task *watch, head_fit *out, err *e) MUST_CHECK;
+/* min_j and inverted_tets of the shape as it is, the place's size taken out. */
+void head_fit_measure_tets(const head_template *t, head_fit *f);
 void head_fit_free(head_fit *f);

@@ -74,6 +74,12 @@ static bool measure_teeth(const surface *in, const surface *of, double *deepest_
     return ok;
 }
 
+bool head_teeth_overlap(const surface *upper, const surface *lower, double *deepest_mm, err *e)
+{
+    *deepest_mm = 0;
+    return measure_teeth(upper, lower, deepest_mm, e) && measure_teeth(lower, upper, deepest_mm, e);
+}
+
 bool head_soundness_of(const head_template *t, const head_shape *s, head_soundness *out, err *e)
 {
     head_soundness f = {.min_j = HUGE_VAL};
@@ -94,9 +100,7 @@ bool head_soundness_of(const head_template *t, const head_shape *s, head_soundne
         f.bone_out_mm = fmax(f.bone_out_mm, mm);
     }
     nearest_destroy(&skin);
-    const surface *upper = &part[CASE_UPPER_TEETH], *lower = &part[CASE_LOWER_TEETH];
-    ok = ok && measure_teeth(upper, lower, &f.teeth_overlap_mm, e) &&
-         measure_teeth(lower, upper, &f.teeth_overlap_mm, e);
+    ok = ok && head_teeth_overlap(&part[CASE_UPPER_TEETH], &part[CASE_LOWER_TEETH], &f.teeth_overlap_mm, e);
     for (int i = 0; i < CASE_SURFACE_COUNT; i++) surface_free(&part[i]);
     if (ok) *out = f;
     return ok;

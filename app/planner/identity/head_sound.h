@@ -16,3 +16,6 @@ bool head_soundness_of(const head_template *t, const head_shape *s, head_soundne
 /* Refuses (ERR_GEOMETRY), with the numbers, an inverted tetrahedron, bone or tooth outside the skin, and upper and
  * lower teeth that lie deeper in each other than `template_overlap_mm` and 0.1 mm more. */
 bool head_sound(const head_soundness *f, double template_overlap_mm, err *e) MUST_CHECK;
+/* The deepest vertex of a lower tooth in the upper ones, or the other way about; 0: none is. Refuses what
+ * nearest_create refuses. */
+bool head_teeth_overlap(const surface *upper, const surface *lower, double *deepest_mm, err *e) MUST_CHECK;

@@ -230,7 +230,22 @@ static void check_lengths(const json_file *f, const tissue_params *t, issue_list
             t->hole_mm, t->detail_mm);
 }
 
-static bool read_case(const char *path, bool needs_landmarks, case_file *out, issue_list *issues)
+enum { NEEDS_LANDMARKS = 1, NEEDS_BONES = 2, NEEDS_ALL = NEEDS_LANDMARKS | NEEDS_BONES };
+
+static void read_fields(const json_file *f, unsigned needs, case_file *c, issue_list *issues)
+{
+    field_table t = *case_fields();
+    field *row = COPY_ARRAY(field, t.row, t.count);
+    for (int i = 0; !(needs & NEEDS_BONES) && i < t.count; i++)
+        if (row[i].kind == FIELD_FILE && (row[i].offset == offsetof(case_file, surface[CASE_SKULL]) ||
+                                          row[i].offset == offsetof(case_file, surface[CASE_MANDIBLE])))
+            row[i].required = false;
+    t.row = row;
+    fields_read(&t, f, f->root, "", c, issues);
+    free(row);
+}
+
+static bool read_case(const char *path, unsigned needs, case_file *out, issue_list *issues)
 {
     case_file *c = out;
     json_file f = {0};
@@ -256,8 +271,8 @@ static bool read_case(const char *path, bool needs_landmarks, case_file *out, is
         if (!there && json_object_get(f.root, "landmarks"))
             name = mem_text(json_string_value(json_object_get(f.root, "landmarks")));
         if (!there) json_object_del(f.root, "landmarks");
-        fields_read(case_fields(), &f, f.root, "", c, issues);
-        if (!there && needs_landmarks) ask_for_landmarks(&f, name, issues);
+        read_fields(&f, needs, c, issues);
+        if (!there && (needs & NEEDS_LANDMARKS)) ask_for_landmarks(&f, name, issues);
         free(name);
         check_lengths(&f, &c->tissue, issues);
         read_osteotomies(&f, c, issues);
@@ -271,18 +286,23 @@ static bool read_case(const char *path, bool needs_landmarks, case_file *out, is
     return issue_count(issues, ISSUE_ERROR) == errors;
 }
 
-bool case_file_read(const char *path, case_file *out, issue_list *issues) { return read_case(path, true, out, issues); }
+bool case_file_read(const char *path, case_file *out, issue_list *issues)
+{
+    return read_case(path, NEEDS_ALL, out, issues);
+}
 
-static bool load(const char *path, bool needs_landmarks, case_file *out, err *e)
+static bool load(const char *path, unsigned needs, case_file *out, err *e)
 {
     issue_list issues = {0};
     case_file c;
-    bool read = read_case(path, needs_landmarks, &c, &issues), ok = issue_none_is_error(&issues, e) && read;
+    bool read = read_case(path, needs, &c, &issues), ok = issue_none_is_error(&issues, e) && read;
     if (ok) *out = c;
     issue_list_free(&issues);
     return ok;
 }
 
-bool case_file_load(const char *path, case_file *out, err *e) { return load(path, true, out, e); }
+bool case_file_load(const char *path, case_file *out, err *e) { return load(path, NEEDS_ALL, out, e); }
 
-bool case_file_load_bare(const char *path, case_file *out, err *e) { return load(path, false, out, e); }
+bool case_file_load_bare(const char *path, case_file *out, err *e) { return load(path, NEEDS_BONES, out, e); }
+
+bool case_file_load_skin(const char *path, case_file *out, err *e) { return load(path, 0, out, e); }

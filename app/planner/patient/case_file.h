@@ -62,6 +62,8 @@ bool case_file_read(const char *path, case_file *out, issue_list *issues) MUST_C
 bool case_file_load(const char *path, case_file *out, err *e) MUST_CHECK;
 /* The same for who needs no landmarks: where the case names none, or a file that is not there, its landmarks are "". */
 bool case_file_load_bare(const char *path, case_file *out, err *e) MUST_CHECK;
+/* The same for who makes do without bones too: where the case names no skull or no mandible, their path is "". */
+bool case_file_load_skin(const char *path, case_file *out, err *e) MUST_CHECK;
 
 bool case_file_cuts(const case_file *c, case_cut cut);
 /* The case has a cut that frees this segment. */
