@@ -30,6 +30,7 @@ typedef enum solve_outcome {
     STOPPED_NOT_FINITE,   /* the start has no energy: a tet inverted in a model that forbids it */
     STOPPED_SINGULAR,     /* no shift makes the matrix positive definite */
     STOPPED_MAX_HALVINGS, /* the load step became too small */
+    STOPPED_MAX_WORK,     /* many times the work of a usual solve, and no equilibrium */
     STOPPED_PENETRATION,  /* in equilibrium, but tissue is deeper in bone or lip than allowed */
     STOPPED_INTERRUPTED
 } solve_outcome;
@@ -74,9 +75,11 @@ typedef struct solve_params {
     int load_steps;     /* >= 1 */
     int max_halvings;   /* failed loads that are tried again at half the step, in all; 0: none */
     int max_iterations; /* at one load */
-    int max_step_cuts;  /* halvings within one line search */
-    double rel_tol;     /* of the residual with the bones moved and the free tissue carried rigidly; the last step
-                           must be small too, below sqrt(rel_tol) of how far the bones move or the targets draw */
+    int max_work;      /* at all loads: iterations and factorisations, and 30 iterations of conjugate gradients for one.
+                          A usual solve takes 10 to 100 */
+    int max_step_cuts; /* halvings within one line search */
+    double rel_tol;    /* of the residual with the bones moved and the free tissue carried rigidly; the last step
+                          must be small too, below sqrt(rel_tol) of how far the bones move or the targets draw */
     double intermediate_rel_tol; /* the same before the last load */
     double max_step_mm;          /* longest move of an unknown in one iteration */
     enum predictor predictor;
@@ -115,7 +118,8 @@ typedef struct equilibrium {
     int iterations, factorisations, cg_iterations, preconditioners, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
-    contact_report contact;                    /* its energy is in energy_uj */
+    int32_t stuck_node;     /* with the largest force that is left on unknowns, where not SOLVED, else -1 */
+    contact_report contact; /* its energy is in energy_uj */
     double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */
     double imbalance;                          /* |sum of these| over the sum of their node forces' norms */
     double prepare_s, assemble_s, factor_s, solve_s, total_s; /* wall time; prepare holds the ordering */

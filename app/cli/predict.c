@@ -121,6 +121,22 @@ static bool predict(const run_context *r, const judgement *limits, prediction *o
 
 static void defaults(void *own) { *(predict_options *)own = (predict_options){.contact = CONTACT_BONES}; }
 
+/* How it ended, and where. */
+static bool refuse_unsolved(const run_context *r, const outcome *o, err *e)
+{
+    char where[128] = "";
+    double at[3];
+    const char *near = outcome_stuck(o, at);
+    if (near)
+        snprintf(where, sizeof where, ", most of the force that is left at (%.1f, %.1f, %.1f) mm near %s", at[0], at[1],
+                 at[2], near);
+    return err_set(
+        e, ERR_NOT_CONVERGED,
+        "%s: the solve did not reach equilibrium (%s%s), so there is no face to show; %s/outcome.json has its "
+        "record",
+        r->plan_path, solve_outcome_text(o->solve->outcome), where, r->out_path);
+}
+
 static bool run(run_context *r, err *e)
 {
     const predict_options *in = r->own;
@@ -140,11 +156,9 @@ static bool run(run_context *r, err *e)
         if (solved) printf("Results in %s\n", command_shown(r->out_path));
     }
     json_decref(record);
+    ok = ok && (solved || refuse_unsolved(r, &o, e));
     prediction_free(&made);
-    return ok && (solved || err_set(e, ERR_NOT_CONVERGED,
-                                    "%s: the solve did not reach equilibrium, so there is no face to show; "
-                                    "%s/outcome.json has its record",
-                                    r->plan_path, r->out_path));
+    return ok;
 }
 
 const verb verb_predict = {.arguments = "CASE",

@@ -145,6 +145,30 @@ static void a_failed_load_is_tried_again_in_smaller_steps(void **state)
     tear_down(&s);
 }
 
+static void a_solve_that_gets_nowhere_ends_and_tells_where_it_is_stuck(void **state)
+{
+    (void)state;
+    setting s;
+    lips_setting(&s);
+    solve_params params = solve_params_default();
+    params.rel_tol = 1e-6;
+    equilibrium whole = solve(&s, &params);
+    assert_int_equal(whole.stuck_node, -1);
+    params.max_work = whole.iterations + whole.factorisations - 2;
+    equilibrium q = solve(&s, &params);
+    assert_int_equal(q.outcome, STOPPED_MAX_WORK);
+    assert_true(q.iterations + q.factorisations > params.max_work && q.iterations < whole.iterations);
+    assert_true(q.halvings == 0 && q.load_reached == 0); /* no smaller load was begun */
+    assert_true(q.stuck_node >= 0 && s.attach.kind[q.stuck_node] != NODE_TIED);
+    equilibrium_free(&whole);
+    equilibrium_free(&q);
+    params.max_work = -1;
+    err e = {0};
+    assert_false(equilibrium_solve(&s.problem, &params, &q, &e));
+    assert_string_equal(e.text, "max_work must be >= 0, got -1");
+    tear_down(&s);
+}
+
 static bool stop_at_third(void *context) { return ++*(int *)context == 3; }
 static void count_record(const solve_record *r, void *context)
 {
@@ -193,6 +217,7 @@ int main(void)
         cmocka_unit_test(layers_of_any_stiffness_contrast_are_solved),
         cmocka_unit_test(a_solve_that_runs_out_of_iterations_says_so),
         cmocka_unit_test(a_failed_load_is_tried_again_in_smaller_steps),
+        cmocka_unit_test(a_solve_that_gets_nowhere_ends_and_tells_where_it_is_stuck),
         cmocka_unit_test(an_interrupted_solve_stops),
         cmocka_unit_test(a_model_without_inversion_stops_where_a_tet_inverts),
     };

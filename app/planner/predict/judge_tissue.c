@@ -31,6 +31,14 @@ static void put_tet(finding *f, const prepared *p, const equilibrium *q, int32_t
     for (int k = 0; k < 4; k++) vec_axpy(f->place, 0.25, q->xyz + 3 * (size_t)node[k], f->place);
 }
 
+/* Where a solve that failed is stuck. */
+static void put_node(finding *f, const equilibrium *q, int32_t node)
+{
+    if (node < 0) return;
+    f->has_place = true;
+    vec_copy(q->xyz + 3 * (size_t)node, f->place);
+}
+
 static void judge_lower_face(const case_file *c, const prepared *p, const carried_landmarks *points, judgement *io)
 {
     double brow[3], nose[3], chin[3];
@@ -44,10 +52,11 @@ static void judge_lower_face(const case_file *c, const prepared *p, const carrie
 void judge_tissue(const case_file *c, const prepared *p, const equilibrium *q, const carried_landmarks *points,
                   judgement *io)
 {
-    judgement_add(io, c, LIMIT_SOLVED, "", q->outcome == SOLVED, false, solve_outcome_text(q->outcome));
     bool known = q->outcome == SOLVED;
     const char *note = known ? NULL : "the solve failed";
-    finding *f = judgement_add(io, c, LIMIT_SMALLEST_J, "", known ? q->extremes.min_j : (double)NAN, false, note);
+    finding *f = judgement_add(io, c, LIMIT_SOLVED, "", known, false, solve_outcome_text(q->outcome));
+    if (!known) put_node(f, q, q->stuck_node);
+    f = judgement_add(io, c, LIMIT_SMALLEST_J, "", known ? q->extremes.min_j : (double)NAN, false, note);
     if (known) put_tet(f, p, q, q->extremes.min_j_tet);
     f = judgement_add(io, c, LIMIT_STRETCH, "", known ? q->extremes.max_stretch : (double)NAN, false, note);
     if (known) put_tet(f, p, q, q->extremes.max_stretch_tet);

@@ -102,6 +102,22 @@ bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e)
     return ok;
 }
 
+const char *outcome_stuck(const outcome *o, double at[3])
+{
+    const landmarks *l = &o->prepared->points;
+    const char *name = "";
+    double away = HUGE_VAL;
+    if (o->solve->stuck_node < 0) return NULL;
+    vec_copy(o->prepared->tissue.mesh.xyz + 3 * (size_t)o->solve->stuck_node, at);
+    for (int32_t i = 0; i < l->count; i++) {
+        double d = vec_distance(at, l->point[i].xyz);
+        if (!(d < away)) continue;
+        away = d;
+        name = l->point[i].label;
+    }
+    return name;
+}
+
 double outcome_worst_tet(const outcome *o, double middle[3])
 {
     const tetmesh *m = &o->prepared->tissue.mesh;

@@ -31,5 +31,7 @@ bool outcome_write_meshes(const outcome *o, const output_dir *dir, err *e) MUST_
 double outcome_relative_residual(const equilibrium *q);
 /* The most compressed tet at rest: its middle, LPS mm, and how far the skin is from there. */
 double outcome_worst_tet(const outcome *o, double middle[3]);
+/* Where most force is left after a solve that failed: LPS mm at rest, and the landmark nearest to it; NULL: nowhere. */
+const char *outcome_stuck(const outcome *o, double at[3]);
 /* How far to trust the result, in a sentence. */
 const char *outcome_trust(contact_kind contact);

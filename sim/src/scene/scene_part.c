@@ -131,6 +131,7 @@ static void widen(const scene_part *p, const tetmesh *m, const attach_map *a, co
     free(q->xyz);
     q->xyz = x;
     q->node_count = m->vertex_count;
+    if (q->stuck_node >= 0) q->stuck_node = p->node[q->stuck_node];
     if (q->extremes.min_j_tet >= 0) q->extremes.min_j_tet = p->tet[q->extremes.min_j_tet];
     if (q->extremes.max_stretch_tet >= 0) q->extremes.max_stretch_tet = p->tet[q->extremes.max_stretch_tet];
 }

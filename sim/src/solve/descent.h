@@ -15,7 +15,8 @@ typedef struct point {
 typedef struct descent {
     solver *t;
     const solve_params *params;
-    equilibrium *out; /* records and counts go here */
+    equilibrium *out;          /* records and counts go here */
+    int factorisations_before; /* of the solver, when this solve began */
     point here, trial;
     double energy, residual; /* of the present iterate, here: uJ; norm of g, mN */
     double *direction;       /* [unknowns] */

@@ -11,6 +11,7 @@ const char *solve_outcome_text(solve_outcome outcome)
     case STOPPED_NOT_FINITE: return "stopped: a tet is inverted in a material that forbids it";
     case STOPPED_SINGULAR: return "stopped: the stiffness matrix cannot be made positive definite";
     case STOPPED_MAX_HALVINGS: return "stopped: the load step became too small";
+    case STOPPED_MAX_WORK: return "stopped: many times the work of a usual solve brought no equilibrium";
     case STOPPED_PENETRATION: return "stopped: tissue stays too deep in what it touches";
     case STOPPED_INTERRUPTED: return "interrupted";
     }
@@ -23,6 +24,7 @@ solve_params solve_params_default(void)
     return (solve_params){.load_steps = 1,
                           .max_halvings = 8,
                           .max_iterations = 120,
+                          .max_work = 600,
                           .max_step_cuts = 20,
                           .rel_tol = 1e-8,
                           .intermediate_rel_tol = 1e-4,
@@ -38,6 +40,7 @@ bool solve_params_check(const solve_params *p, err *e)
     if (p->load_steps < 1) return err_set(e, ERR_INPUT, "load_steps must be >= 1, got %d", p->load_steps);
     if (p->max_halvings < 0) return err_set(e, ERR_INPUT, "max_halvings must be >= 0, got %d", p->max_halvings);
     if (p->max_iterations < 0) return err_set(e, ERR_INPUT, "max_iterations must be >= 0, got %d", p->max_iterations);
+    if (p->max_work < 0) return err_set(e, ERR_INPUT, "max_work must be >= 0, got %d", p->max_work);
     if (p->max_step_cuts < 0) return err_set(e, ERR_INPUT, "max_step_cuts must be >= 0, got %d", p->max_step_cuts);
     if (!(p->rel_tol > 0 && p->rel_tol < 1))
         return err_set(e, ERR_INPUT, "rel_tol must lie between 0 and 1, got %g", p->rel_tol);

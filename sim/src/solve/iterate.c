@@ -78,6 +78,15 @@ static contact_verdict look_at_contact(descent *d, int iteration, contact_watch 
     return CONTACT_LOOK_AGAIN;
 }
 
+/* Counts alone, so that the same solve ends at the same iterate on any machine. */
+static bool is_out_of_work(const descent *d)
+{
+    enum { GRADIENTS = 30 }; /* iterations of conjugate gradients that cost as much as a factorisation */
+    const linear *l = d->t->l;
+    int factorisations = l ? linear_measure(l).factorisations - d->factorisations_before : 0;
+    return d->out->iterations + factorisations + d->out->cg_iterations / GRADIENTS > d->params->max_work;
+}
+
 /* Does the iteration end before the next step? */
 static bool ends(descent *d, int iteration, int max_iterations, solve_outcome *outcome)
 {
@@ -85,6 +94,8 @@ static bool ends(descent *d, int iteration, int max_iterations, solve_outcome *o
         *outcome = SOLVED;
     else if (iteration > max_iterations)
         *outcome = STOPPED_MAX_ITERATIONS;
+    else if (is_out_of_work(d))
+        *outcome = STOPPED_MAX_WORK;
     else if (d->params->interrupted && d->params->interrupted(d->params->context))
         *outcome = STOPPED_INTERRUPTED;
     else

@@ -40,6 +40,7 @@ void descent_make(descent *d, solver *t, const solve_params *params, equilibrium
     *d = (descent){.t = t,
                    .params = params,
                    .out = out,
+                   .factorisations_before = t->l ? linear_measure(t->l).factorisations : 0,
                    .here = new_point(t),
                    .trial = new_point(t),
                    .direction = NEW_ARRAY(double, t->b.unknown_count),

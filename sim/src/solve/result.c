@@ -83,6 +83,26 @@ static void count_costs(const solver *t, const linear_stats *before, equilibrium
     if (t->grid) q->memory_peak_mb += multigrid_mb(t->grid);
 }
 
+/* Where most of the force is left. */
+static int32_t find_stuck(const solver *t, const double *force)
+{
+    int32_t worst = -1;
+    double most = 0;
+    for (int32_t v = 0; v < t->b.node_count; v++) {
+        double square = 0;
+        for (size_t k = 0; k < 3; k++)
+            if (t->b.unknown[3 * (size_t)v + k] >= 0) {
+                double f = vec_dot(force + 3 * (size_t)v, t->b.basis + 9 * (size_t)v + 3 * k);
+                square += f * f;
+            }
+        if (square > most) {
+            most = square;
+            worst = v;
+        }
+    }
+    return worst;
+}
+
 void result_fill(descent *d, solve_outcome outcome, const linear_stats *before)
 {
     solver *t = d->t;
@@ -94,6 +114,7 @@ void result_fill(descent *d, solve_outcome outcome, const linear_stats *before)
     q->extremes = assembly_extremes(&t->a, q->xyz, true);
     q->energy_uj = term_energy(&t->terms, true, d->here.x, d->here.force);
     if (t->touch) report_contact(d, q);
+    q->stuck_node = outcome == SOLVED ? -1 : find_stuck(t, d->here.force);
     find_reactions(t, d->here.force, q);
     count_costs(t, before, q);
 }
