@@ -95,12 +95,10 @@ static bool write_tissue(const fit_record *r, const output_dir *d, err *e)
 static bool write_case(const fit_record *r, const char *name, const output_dir *d, err *e)
 {
     char *folder = output_dir_file(d, "case"), title[FIELD_TEXT_SIZE];
-    int at = snprintf(title, sizeof title, "%.100s, fitted; guessed:", name);
-    for (int p = 0; p < CASE_SURFACE_COUNT; p++)
-        at += snprintf(title + at, sizeof title - (size_t)at, "%s %s %.0f %%", p ? "," : "",
-                       case_surface_name((case_surface)p), 100 * fit_guessed_share(r->fit, (case_surface)p));
+    case_guess guessed = fit_case_guess(r);
+    snprintf(title, sizeof title, "%.200s, fitted", name);
     bool ok = !mkdir(folder, 0777) || err_at(e, ERR_RESOURCE, folder, 0, NULL, "cannot be made (%s)", strerror(errno));
-    ok = ok && head_case_write(r->head, &r->fit->shape, folder, title, e);
+    ok = ok && head_case_write(r->head, &r->fit->shape, &guessed, folder, title, e);
     free(folder);
     return ok;
 }

@@ -1,4 +1,5 @@
 #include "app/cli/plan_audit_print.h"
+#include "app/planner/patient/case_guess.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -57,7 +58,8 @@ static void print_remedy(const remedy *r)
 void judgement_print_headline(const judgement *j, const case_file *c)
 {
     const finding *f = j->reason >= 0 ? &j->finding[j->reason] : NULL;
-    char stop[LIMIT_WORDS_SIZE];
+    char stop[LIMIT_WORDS_SIZE], guessed[256];
+    if (*case_guess_text(&c->guessed, guessed, sizeof guessed)) printf("guessed, not from the scan: %s\n\n", guessed);
     if (!f || (f->level != LIMIT_STOP && !f->leads)) return;
     printf("%s: %s%s%s is %.4g", limit_level_name(f->level), limit_default[f->limit].name, *f->where ? ", " : "",
            f->where, f->value);

@@ -51,7 +51,7 @@ static bool make_one(const head_template *t, const head_model *m, identities_mad
     const char *slash = strrchr(made->folder, '/'), *name = slash && slash[1] ? slash + 1 : made->folder;
     bool ok = head_soundness_of(t, &s, &made->sound, e) &&
               head_sound(&made->sound, made->of_template.teeth_overlap_mm, e) &&
-              head_case_write(t, &s, folder, name, e) && head_case_passes(folder, watch, warnings, e);
+              head_case_write(t, &s, NULL, folder, name, e) && head_case_passes(folder, watch, warnings, e);
     head_shape_free(&s);
     return ok;
 }

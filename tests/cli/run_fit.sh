@@ -67,8 +67,9 @@ assert 0.1 < f["parts"]["skin"]["guessed_share"] < 0.6, f["parts"]["skin"]
 assert f["parts"]["skull"]["guessed_share"] < 0.02
 t = meshio.read(work + "/out/tissue.vtu")
 assert {"J", "to_rest", "attachment", "segment"} <= set(t.point_data) and t.point_data["J"].min() > 0
-name = json.load(open(work + "/out/case/case.json"))["name"]
-assert "guessed: skin %.0f %%" % (100 * f["parts"]["skin"]["guessed_share"]) in name, name
+case = json.load(open(work + "/out/case/case.json"))
+assert case["guessed"]["skin"] == f["parts"]["skin"]["guessed_share"] and case["guessed"]["jaw_turned_deg"] == 0, case
+assert case["guessed"]["landmarks"] == f["guessed_landmarks"] and not {"N", "U1", "Me"} & set(f["guessed_landmarks"]), case
 # landmarks lie where the patient's are
 at = {p["label"]: p["position"] for p in json.load(open(work + "/out/case/landmarks.mrk.json"))["markups"][0]["controlPoints"]}
 own = {p["label"]: p["position"] for p in json.load(open(work + "/patient/landmarks.mrk.json"))["markups"][0]["controlPoints"]}
@@ -100,8 +101,15 @@ assert f["parts"]["skin"]["mean_mm"] < 0.2 and f["parts"]["skin"]["guessed_share
 for part in ("skull", "mandible", "upper_teeth", "lower_teeth"):
     p = f["parts"][part]
     assert not p["scanned"] and p["guessed_share"] == 1 and p["mean_mm"] is None, (part, p)
+case = json.load(open(work + "/whole/case/case.json"))
+assert case["guessed"]["upper_teeth"] == 1 and {"U1", "N", "Me"} <= set(case["guessed"]["landmarks"]), case
 assert "completion" not in json.load(open(work + "/fit.json"))
 PY
+"$gnathos" check "$work/whole/case" >"$work/check.txt" 2>&1 || fail "the whole head is no case: $(cat "$work/check.txt")"
+grep -q 'upper_teeth.ply: warning: 100 % of it is guessed, not from the scan$' "$work/check.txt" ||
+    fail "check does not warn of guessed teeth: $(cat "$work/check.txt")"
+grep -q 'landmarks.mrk.json: warning: [0-9]* of 81 are guessed, not from the scan: .*U1' "$work/check.txt" ||
+    fail "check does not warn of guessed landmarks: $(cat "$work/check.txt")"
 refused metres metre 4
 refused mirrored mirror 4
 refused absent 'absent' 3

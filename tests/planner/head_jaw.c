@@ -90,7 +90,7 @@ static void an_opened_mouth_is_closed_again(void **state)
 }
 
 /* Bones alone: the tissue is not asked where the mouth is not open. */
-static void what_is_closed_stays_and_a_glide_is_left(void **state)
+static void what_is_closed_stays_as_it_is(void **state)
 {
     (void)state;
     err e = {0};
@@ -108,7 +108,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_opened_mouth_is_closed_again),
-        cmocka_unit_test(what_is_closed_stays_and_a_glide_is_left),
+        cmocka_unit_test(what_is_closed_stays_as_it_is),
     };
     return cmocka_run_group_tests(tests, open_it, close_it);
 }

@@ -1,6 +1,6 @@
 /* Reading cases; each refusal with its message is under tests/cli. */
 #include "tests/check.h"
-#include "app/planner/patient/case_file.h"
+#include "app/planner/patient/case_guess.h"
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -204,10 +204,51 @@ static void a_bare_case_needs_no_landmarks_but_reads_all_else(void **state)
     assert_refused(case_file_load_bare(folder, &c, &e), ERR_INPUT);
 }
 
+static void a_case_of_skin_alone_needs_no_bones(void **state)
+{
+    (void)state;
+    err e = {0}, strict = {0};
+    case_file c;
+    put("case.json", "{\"gnathos\": 1, \"surfaces\": {\"skin\": \"skin.ply\"}}");
+    assert_ok(case_file_load_skin(folder, &c, &e));
+    assert_true(*c.surface[CASE_SKIN] && !*c.surface[CASE_SKULL] && !*c.surface[CASE_MANDIBLE] && !*c.landmarks);
+    assert_false(case_file_load_bare(folder, &c, &strict));
+    assert_non_null(strstr(strict.text, "surfaces.skull"));
+    put("case.json", "{\"gnathos\": 1, \"surfaces\": {\"skull\": \"skull.ply\"}}");
+    assert_refused(case_file_load_skin(folder, &c, &e), ERR_INPUT);
+}
+
+static void what_is_guessed_comes_back_as_it_was_written(void **state)
+{
+    (void)state;
+    err e = {0};
+    char text[200];
+    case_file c;
+    put("case.json", "{" NEEDED ", \"guessed\": {\"skin\": 0.04, \"upper_teeth\": 1, \"jaw_turned_deg\": 5.25, "
+                     "\"landmarks\": [\"U1\", \"Me\"]}}");
+    assert_ok(case_file_load(folder, &c, &e));
+    assert_true(c.guessed.share[CASE_SKIN] == 0.04 && c.guessed.share[CASE_SKULL] == 0 &&
+                case_guess_is_any(&c.guessed));
+    assert_int_equal(c.guessed.point_count, 2);
+    assert_string_equal(c.guessed.point[1], "Me");
+    assert_string_equal(case_guess_text(&c.guessed, text, sizeof text),
+                        "upper_teeth 100 %, 2 landmarks, the bite (mandible turned up by 5.2 deg)");
+    json_t *again = case_guess_json(&c.guessed);
+    assert_int_equal(json_array_size(json_object_get(again, "landmarks")), 2);
+    assert_near(json_number_value(json_object_get(again, "jaw_turned_deg")), 5.25, 0);
+    json_decref(again);
+    put("case.json", "{" NEEDED "}");
+    assert_ok(case_file_load(folder, &c, &e));
+    assert_false(case_guess_is_any(&c.guessed));
+    assert_string_equal(case_guess_text(&c.guessed, text, sizeof text), "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(absent_fields_take_the_defaults_of_their_stage),
+        cmocka_unit_test(a_case_of_skin_alone_needs_no_bones),
+        cmocka_unit_test(what_is_guessed_comes_back_as_it_was_written),
         cmocka_unit_test(every_default_is_within_its_own_range),
         cmocka_unit_test(given_fields_arrive_where_they_belong),
         cmocka_unit_test(null_is_an_open_end_and_every_number_is_a_limit),

@@ -1,5 +1,6 @@
 #include "app/planner/identity/fit_record.h"
 #include <math.h>
+#include <string.h>
 
 static const head_fit *fit_of(const void *of) { return ((const fit_record *)of)->fit; }
 
@@ -19,6 +20,16 @@ bool fit_point_is_guessed(const fit_record *r, const head_point *p)
     bool guessed = false;
     for (int k = 0; k < 3; k++) guessed = guessed || r->fit->guessed[p->part][corner[k]];
     return guessed;
+}
+
+case_guess fit_case_guess(const fit_record *r)
+{
+    case_guess g = {.jaw_turned_deg = r->completion ? r->completion->jaw.turn_deg : 0};
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) g.share[p] = fit_guessed_share(r->fit, (case_surface)p);
+    for (int32_t i = 0; i < r->head->point_count && g.point_count < CASE_GUESSED_POINTS_MAX; i++)
+        if (fit_point_is_guessed(r, &r->head->point[i]))
+            memcpy(g.point[g.point_count++], r->head->point[i].label, LANDMARK_LABEL_SIZE);
+    return g;
 }
 
 static double turn(const void *of) { return rigid_angle(&fit_of(of)->place.motion) * 180 / M_PI; }

@@ -18,3 +18,5 @@ double fit_share(const head_fit *f, case_surface part, head_guess why);
 double fit_guessed_share(const head_fit *f, case_surface part);
 /* Whether the landmark hangs where the scan has nothing; those inside are as their part is for the most. */
 bool fit_point_is_guessed(const fit_record *r, const head_point *p);
+/* As the case of the fitted head says it. */
+case_guess fit_case_guess(const fit_record *r);

@@ -1,9 +1,11 @@
 #include "app/planner/identity/head_case.h"
+#include "app/planner/patient/case_guess.h"
 #include "app/planner/patient/check.h"
 #include "geometry/json_file.h"
 #include <stdio.h>
 
-bool head_case_write(const head_template *t, const head_shape *s, const char *folder, const char *name, err *e)
+bool head_case_write(const head_template *t, const head_shape *s, const case_guess *guessed, const char *folder,
+                     const char *name, err *e)
 {
     char path[FIELD_PATH_SIZE];
     bool ok = true;
@@ -24,6 +26,7 @@ bool head_case_write(const head_template *t, const head_shape *s, const char *fo
     json_t *root = json_pack("{s:i, s:s, s:s, s:s, s:o, s:s, s:[s,s,s]}", "gnathos", 1, "name", name, "units", "mm",
                              "frame", "LPS", "surfaces", surfaces, "landmarks", "landmarks.mrk.json", "osteotomies",
                              "le_fort_1", "bsso", "genioplasty");
+    if (guessed) json_object_set_new(root, "guessed", case_guess_json(guessed));
     snprintf(path, sizeof path, "%s/case.json", folder);
     ok = ok && json_file_write(root, path, e);
     json_decref(root);

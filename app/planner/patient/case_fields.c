@@ -15,6 +15,11 @@
         .name = "tissue." #member, .kind = FIELD_NUMBER, .offset = offsetof(case_file, material.member),               \
         .unit = unit_, low_, high_, .help = help_                                                                      \
     }
+#define GUESSED(word, id)                                                                                              \
+    {                                                                                                                  \
+        .name = "guessed." word, .kind = FIELD_NUMBER, .offset = offsetof(case_file, guessed.share[id]), FROM(0),      \
+        TO(1), .help = "Share of it that no scan shows: `gnathos fit` guessed it, and check and predict tell."         \
+    }
 #define CASE(member, unit_, low_, high_, help_) NUMBER(case_file, member, unit_, low_, high_, help_)
 
 static const field rows[] = {
@@ -106,6 +111,22 @@ static const field rows[] = {
          "linear: tetrahedra of one strain each, which stiffen falsely (lock) near Poisson's ratio 0.5; averaged: "
          "with volume changes averaged around each node (what exceeds Poisson's ratio 0.4), dearer and without that; "
          "auto: averaged from 0.48 on."},
+    GUESSED("skin", CASE_SKIN),
+    GUESSED("skull", CASE_SKULL),
+    GUESSED("mandible", CASE_MANDIBLE),
+    GUESSED("upper_teeth", CASE_UPPER_TEETH),
+    GUESSED("lower_teeth", CASE_LOWER_TEETH),
+    {.name = "guessed.jaw_turned_deg",
+     .kind = FIELD_NUMBER,
+     .offset = offsetof(case_file, guessed.jaw_turned_deg),
+     .unit = "deg",
+     FROM(0),
+     TO(45),
+     .help = "By which `gnathos fit --complete` turned the mandible up to close an open mouth: the bite is guessed."},
+    {.name = "guessed.landmarks",
+     .kind = FIELD_OTHER,
+     .words = "a list of labels",
+     .help = "Landmarks where the scan has nothing: `gnathos fit` guessed them."},
 #define LIMIT(id, field, part, unit_, help_)                                                                           \
     {                                                                                                                  \
         .name = "limits." #field "." #part, .kind = FIELD_RANGE,                                                       \

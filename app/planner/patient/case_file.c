@@ -1,4 +1,4 @@
-#include "app/planner/patient/case_file.h"
+#include "app/planner/patient/case_guess.h"
 #include "geometry/mem.h"
 #include "geometry/suggest.h"
 #include <errno.h>
@@ -276,6 +276,7 @@ static bool read_case(const char *path, unsigned needs, case_file *out, issue_li
         free(name);
         check_lengths(&f, &c->tissue, issues);
         read_osteotomies(&f, c, issues);
+        case_guess_read(&f, &c->guessed, issues);
         issue_sort_by_line(issues, from);
         const json_t *limits = json_object_get(f.root, "limits");
         for (int i = 0; i < LIMIT_COUNT; i++)

@@ -36,6 +36,16 @@ typedef struct case_material {
     int element; /* element_kind: auto, linear, averaged */
 } case_material;
 
+enum { CASE_GUESSED_POINTS_MAX = 128 };
+
+/* What no scan shows (case_guess.h). */
+typedef struct case_guess {
+    double share[CASE_SURFACE_COUNT]; /* of the part's vertices, 0 to 1 */
+    double jaw_turned_deg;            /* up, to close a mouth that the scan has open */
+    int point_count;
+    char point[CASE_GUESSED_POINTS_MAX][LANDMARK_LABEL_SIZE];
+} case_guess;
+
 typedef struct case_file {
     char path[FIELD_PATH_SIZE];   /* of case.json; "" for the default */
     char folder[FIELD_PATH_SIZE]; /* of case.json, without the last slash */
@@ -52,6 +62,7 @@ typedef struct case_file {
     case_material material;
     limit_range limits[LIMIT_COUNT];
     bool limit_from_case[LIMIT_COUNT]; /* false: the default and its source hold */
+    case_guess guessed;
 } case_file;
 
 case_file case_file_default(void);

@@ -39,4 +39,6 @@ void check_depth(const case_file *c, const check_found *found, issue_list *issue
 void check_order(const case_file *c, const check_found *found, issue_list *issues);
 void check_jaws(const case_file *c, const check_found *found, issue_list *issues);
 void check_planes(const case_file *c, issue_list *issues);
+/* What gnathos fit guessed (case_guess.h); needs the landmarks. */
+void check_guessed(const case_file *c, const check_found *found, issue_list *issues);
 void check_found_free(check_found *found);

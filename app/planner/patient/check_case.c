@@ -10,6 +10,7 @@ void check_case(const case_file *c, const task *watch, check_found *found, issue
     check_bones_inside(c, found, issues);
     task_progress(watch, "landmarks", -1);
     check_landmarks(c, found, issues);
+    check_guessed(c, found, issues);
     check_planes(c, issues);
 }
 

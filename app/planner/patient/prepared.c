@@ -1,3 +1,4 @@
+#include "app/planner/patient/case_guess.h"
 #include "app/planner/patient/prepared.h"
 #include "app/planner/patient/pack_arrays.h"
 #include "app/planner/patient/prepared_report.h"
@@ -35,6 +36,13 @@ bool prepared_hash(const case_file *c, char text[HASH_TEXT_SIZE], err *e)
         content_hash_number(h, "cut", o->cut);
         content_hash_text(h, "plane", o->plane);
         content_hash_number(h, "segment", o->segment);
+    }
+    if (case_guess_is_any(&c->guessed)) { /* what is told of it is kept too */
+        json_t *guessed = case_guess_json(&c->guessed);
+        char *said = json_dumps(guessed, JSON_COMPACT | JSON_REAL_PRECISION(17));
+        content_hash_text(h, "guessed", said);
+        free(said);
+        json_decref(guessed);
     }
     content_hash_end(h, text);
     return ok;
