@@ -69,6 +69,33 @@ static void by_anchor(const point_rule *r, int side, const landmarks *carried, c
     if (fabs(moved[2] - x[2]) < trusted_mm) vec_copy(moved, x); /* else the anchor itself is astray */
 }
 
+/* z = plane[0] + plane[1] x + plane[2] y, through the lower first molars and the incisors of an open mouth. False: it
+ * is closed, and its plane of occlusion is where the ramus that was carried has it, or they are not there. */
+static bool lower_row_plane(const landmarks *l, double plane[3])
+{
+    static const double open_mm = 3;
+    const landmark *a = landmarks_find(l, "L1"), *b = landmarks_find(l, "L6_L"), *c = landmarks_find(l, "L6_R"),
+                   *upper = landmarks_find(l, "U1");
+    double u[3], w[3], n[3];
+    if (!a || !b || !c || !upper || upper->xyz[2] - a->xyz[2] < open_mm) return false;
+    vec_sub(b->xyz, a->xyz, u);
+    vec_sub(c->xyz, a->xyz, w);
+    vec_cross(u, w, n);
+    if (fabs(n[2]) < 0.5 * vec_norm(n)) return false; /* a row that stands upright is none */
+    plane[1] = -n[0] / n[2];
+    plane[2] = -n[1] / n[2];
+    plane[0] = a->xyz[2] - plane[1] * a->xyz[0] - plane[2] * a->xyz[1];
+    return true;
+}
+
+static void to_occlusion(const landmarks *now, double x[3])
+{
+    double plane[3];
+    if (!lower_row_plane(now, plane)) return;
+    double z = plane[0] + plane[1] * x[0] + plane[2] * x[1];
+    if (fabs(z - x[2]) < trusted_mm) x[2] = z;
+}
+
 static bool seek_as(const surface *near_by, const point_seek *s, const point_rule *r, double out[3])
 {
     return r && r->saddle ? point_seek_saddle(near_by, s, r->saddle_axis, out) : point_seek_on(near_by, s, out);
@@ -181,6 +208,7 @@ static void refine_row(const surface part[CASE_SURFACE_COUNT], const point_rule 
         case_surface on = surface_of(now->point[i].label, &middle);
         if (r != row || (on == CASE_SURFACE_COUNT && !r)) continue;
         vec_copy(now->point[i].xyz, out[i].at);
+        if (r && r->occlusal) to_occlusion(now, out[i].at);
         if (r && r->anchor) by_anchor(r, side, carried, now, out[i].at);
         out[i].by_rule = r;
         out[i].doubt_mm = r ? r->doubt_mm : 0;

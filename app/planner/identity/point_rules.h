@@ -15,6 +15,7 @@ typedef struct point_rule {
     const char *anchor;   /* a label of the same side that knows more of the place than what was carried */
     unsigned axes; /* in these axes (bits 1, 2, 4) the place is `offset` from the anchor; 0: it moves along with it */
     double offset[3];
+    bool occlusal;   /* in an open mouth its height is that of the lower row of teeth */
     double doubt_mm; /* of the definition itself, where heads or readers differ */
     bool saddle;     /* the least far of the farthest points across, along saddle_axis */
     int saddle_axis;
