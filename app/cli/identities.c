@@ -2,6 +2,7 @@
 #include "app/cli/verb.h"
 #include "app/identities/identities.h"
 #include "app/planner/identity/template_get.h"
+#include "app/planner/store/user_cache.h"
 #include "geometry/mem.h"
 #include "geometry/suggest.h"
 #include <errno.h>
@@ -15,7 +16,8 @@ enum { KEY_NORM = KEY_OWN, KEY_SEED, KEY_COARSE, KEY_P, KEY_RANDOM };
 
 static const struct argp_option options[] = {
     {"output", 'o', "PATH", 0,
-     "learn: the model's file; show and project: a folder for tables and pictures; make: the case", 0},
+     "learn: the model's file (the user's own where absent); show and project: a folder for tables and pictures; make: the case",
+     0},
     {"force", 'f', NULL, 0, "Replace an earlier output", 0},
     {NULL, 0, NULL, 0, "learn:", 1},
     {"norm", KEY_NORM, "N", 0, "Also from N heads drawn from published norms, sexes and classes in turn", 1},
@@ -29,10 +31,12 @@ static const struct argp_option options[] = {
 
 static const char about[] =
     "What heads have in common and how they differ, and new heads from that.\v"
-    "  learn CASE... -o MODEL   fit the template to each head and find their main directions, 40 at most\n"
-    "  show MODEL [-o DIR]      variance of each mode, error of heads left out; pictures of mean and modes\n"
-    "  project MODEL CASE       coefficients of a head, and what the model makes of it; -o DIR: an error map\n"
-    "  make MODEL -o CASE       a new head, of --p or --random, as a case that predict takes\n\n"
+    "  learn CASE...            fit the template to each head and find their main directions, 40 at most\n"
+    "  show [MODEL] [-o DIR]    variance of each mode, error of heads left out; pictures of mean and modes\n"
+    "  project [MODEL] CASE     coefficients of a head, and what the model makes of it; -o DIR: an error map\n"
+    "  make [MODEL] -o CASE     a new head, of --p or --random, as a case that predict takes\n\n"
+    "Without MODEL (learn: -o) it is the user's own: identities-2.model in $XDG_CACHE_HOME/gnathos or ~/.cache/gnathos, or "
+    "what GNATHOS_IDENTITIES names. "
     "CASE may be a folder of gnathos fit: what it holds is not fitted again. learn keeps the fits in MODEL.journal while it runs: after an interruption the same command goes on from there.";
 
 typedef enum word { LEARN, SHOW, PROJECT, MAKE, WORDS } word;
@@ -44,6 +48,8 @@ typedef struct identities_options {
     const char **path; /* after the word */
     identities_learn learn;
     identities_made made;
+    const char *model; /* NULL: the user's own */
+    char own_model[FIELD_PATH_SIZE];
     bool has_p;
     const char *of_learn, *of_make, *seed; /* names of options that were given */
 } identities_options;
@@ -84,8 +90,8 @@ static void take_word(identities_options *o, const char *arg, struct argp_state 
 
 static void check(run_context *r, struct argp_state *state)
 {
-    const identities_options *o = r->own;
-    static const int want[WORDS] = {[SHOW] = 1, [PROJECT] = 2, [MAKE] = 1};
+    identities_options *o = r->own;
+    static const int most[WORDS] = {[SHOW] = 1, [PROJECT] = 2, [MAKE] = 1};
     if (o->what == WORDS) command_usage(state, "say learn, show, project or make");
     if (o->what != LEARN && o->of_learn)
         command_usage(state, "%s belongs to learn, not to %s", o->of_learn, word_name[o->what]);
@@ -93,16 +99,15 @@ static void check(run_context *r, struct argp_state *state)
         command_usage(state, "%s belongs to make, not to %s", o->of_make, word_name[o->what]);
     if (o->seed && !(o->what == LEARN && o->learn.norm_heads) && !(o->what == MAKE && o->made.random))
         command_usage(state, "--seed belongs to learn --norm and make --random");
-    if (o->what != LEARN && o->count < want[o->what])
-        command_usage(state, o->what == PROJECT && o->count == 1 ? "name a case after the model" : "name a model");
-    if (o->what != LEARN && o->count > want[o->what])
-        command_usage(state, "one argument too many: %s", o->path[want[o->what]]);
+    if (o->what == PROJECT && !o->count) command_usage(state, "name a case");
+    if (o->what != LEARN && o->count > most[o->what])
+        command_usage(state, "one argument too many: %s", o->path[most[o->what]]);
     if (o->what == LEARN && !o->count && !o->learn.norm_heads)
         command_usage(state, "name cases to learn from, or --norm N");
-    if ((o->what == LEARN || o->what == MAKE) && !r->out_path)
-        command_usage(state, "name %s with -o", o->what == LEARN ? "a file for the model" : "a folder for the case");
+    if (o->what == MAKE && !r->out_path) command_usage(state, "name a folder for the case with -o");
     if (o->what == MAKE && o->has_p == o->made.random) command_usage(state, "say either --p or --random");
     if (o->what == MAKE && r->force) command_usage(state, "make replaces no case: name a new folder");
+    o->model = o->what == LEARN ? r->out_path : o->count == most[o->what] ? o->path[0] : NULL;
 }
 
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
@@ -165,7 +170,7 @@ static bool learn(run_context *r, const head_template *t, err *e)
     o->learn.cases = o->path;
     o->learn.case_count = o->count;
     o->learn.anew = r->force;
-    if (!identities_learn_write(t, &o->learn, r->out_path, &r->watch, &l, e)) return false;
+    if (!identities_learn_write(t, &o->learn, o->model, &r->watch, &l, e)) return false;
     tell(r, identities_json(&l));
     if (!r->common.json) identities_print(&l, stdout);
     head_model_free(&l.model);
@@ -186,7 +191,7 @@ static bool project(run_context *r, const head_template *t, head_model *m, err *
 {
     const identities_options *o = r->own;
     identities_projection p = {0};
-    bool ok = (!r->out_path || open_output(r, e)) && identities_project(t, m, o->path[1], &r->watch, &p, e);
+    bool ok = (!r->out_path || open_output(r, e)) && identities_project(t, m, o->path[o->count - 1], &r->watch, &p, e);
     if (ok && r->out_path) ok = identity_write(t, &p, r->dir.part.temporary, e) && output_dir_close(&r->dir, e);
     if (ok) tell(r, identity_json(&p));
     if (ok && !r->common.json) identity_print(&p, stdout);
@@ -208,14 +213,21 @@ static bool make(run_context *r, const head_template *t, head_model *m, err *e)
 }
 
 /* What is wrong with the model's name is told before the template is looked for, and before the work of an hour. */
-static bool model_is_named_right(const run_context *r, err *e)
+static bool find_model(const run_context *r, err *e)
 {
-    const identities_options *o = r->own;
-    if (o->what == LEARN)
-        return r->force || access(r->out_path, F_OK) ||
-               err_at(e, ERR_INPUT, r->out_path, 0, NULL, "is there already; --force replaces it");
-    return !access(o->path[0], R_OK) ||
-           err_at(e, ERR_INPUT, o->path[0], 0, NULL, "cannot be read: %s", strerror(errno));
+    identities_options *o = r->own;
+    bool named = o->model;
+    if (!named && !head_model_place(o->own_model, e)) return false;
+    if (!named) o->model = o->own_model;
+    if (o->what == LEARN && !r->force && !access(o->model, F_OK))
+        return err_at(e, ERR_INPUT, o->model, 0, NULL, "is there already; --force replaces it");
+    if (o->what == LEARN) return named || user_cache_folders(o->model, "the model", "-o", e);
+    if (!access(o->model, R_OK)) return true;
+    return named ? err_at(e, ERR_INPUT, o->model, 0, NULL, "cannot be read: %s", strerror(errno))
+                 : err_at(e, ERR_INPUT, o->model, 0, NULL,
+                          "cannot be read: %s; gnathos identities learn --norm 120 makes it, in about an hour, or name "
+                          "a model before all else",
+                          strerror(errno));
 }
 
 static bool run(run_context *r, err *e)
@@ -223,13 +235,13 @@ static bool run(run_context *r, err *e)
     identities_options *o = r->own;
     head_template t = {0};
     head_model m = {0};
-    bool ok = model_is_named_right(r, e) && head_template_get(&r->watch, &t, NULL, e);
+    bool ok = find_model(r, e) && head_template_get(&r->watch, &t, NULL, e);
     if (ok && o->what == LEARN) {
         ok = learn(r, &t, e);
     } else if (ok) {
         static bool (*const work[WORDS])(run_context *, const head_template *, head_model *,
                                          err *) = {[SHOW] = show, [PROJECT] = project, [MAKE] = make};
-        ok = head_model_read(o->path[0], &t, &m, e) && work[o->what](r, &t, &m, e);
+        ok = head_model_read(o->model, &t, &m, e) && work[o->what](r, &t, &m, e);
     }
     head_model_free(&m);
     head_template_free(&t);
@@ -237,7 +249,7 @@ static bool run(run_context *r, err *e)
     return ok;
 }
 
-const verb verb_identities = {.arguments = "learn CASE... -o MODEL\nshow MODEL\nproject MODEL CASE\nmake MODEL -o CASE",
+const verb verb_identities = {.arguments = "learn CASE...\nshow [MODEL]\nproject [MODEL] CASE\nmake [MODEL] -o CASE",
                               .about = about,
                               .options = options,
                               .own_size = sizeof(identities_options),

@@ -53,12 +53,11 @@ typedef struct identities_made {
 } identities_made;
 
 enum { IDENTITIES_TRIES = 50 };
-extern const double identities_sd_most;  /* a coefficient is at most so many standard deviations */
-extern const double identities_sd_drawn; /* and one that is drawn so many, as the measures of norm heads are */
+extern const double identities_sd_most; /* a coefficient is at most so many standard deviations */
 
-/* A new head as a case in out->folder, which appears whole or not at all. Random: coefficients from the seed, normally
- * distributed, within identities_sd_drawn; a draw that is no head is told as a note and the next is tried, at most
- * IDENTITIES_TRIES. Refuses (ERR_GEOMETRY) what head_sound and gnathos check refuse of p. */
+/* A new head as a case in out->folder, which appears whole or not at all. Random: head_model_draw from the
+ * seed; a draw that is no head is told as a note and the next is tried, at most IDENTITIES_TRIES. Refuses
+ * (ERR_GEOMETRY) what head_sound and gnathos check refuse of p. */
 bool identities_make(const head_template *t, const head_model *m, identities_made *made, const task *watch,
                      issue_list *warnings, err *e) MUST_CHECK;
 

@@ -8,27 +8,6 @@
 #include <string.h>
 
 const double identities_sd_most = 3; /* beyond it a normal distribution has one head in 400 per mode */
-const double identities_sd_drawn = 2;
-
-/* S. Vigna's splitmix64. */
-static uint64_t next_bits(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
-static double uniform(uint64_t *state) { return ((double)(next_bits(state) >> 11) + 0.5) / 9007199254740992.0; }
-
-/* Normally distributed (Box and Muller 1958), drawn again beyond the bound. */
-static double normal(uint64_t *state)
-{
-    for (;;) {
-        double r = sqrt(-2 * log(uniform(state))), x = r * cos(2 * M_PI * uniform(state));
-        if (fabs(x) <= identities_sd_drawn) return x;
-    }
-}
 
 /* Where a text begins with the folder in which the head is made for now: the name that it will have. */
 static void name_target(const char *now, const char *target, const char *text, char *out, size_t size)
@@ -64,7 +43,7 @@ static bool try_all(const head_template *t, const head_model *m, identities_made
     for (made->tries = 1;; made->tries++) {
         if (made->random) {
             made->p_count = m->modes.mode_count;
-            for (int32_t k = 0; k < made->p_count; k++) made->p[k] = normal(&state);
+            head_model_draw(m, &state, made->p);
         }
         issue_list found = {0};
         err why = {0};

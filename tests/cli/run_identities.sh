@@ -40,6 +40,17 @@ refused 3 'is not an empty folder' make bent.model --p 1 -o head
 refused 2 'fits/wide is named twice' learn fits/wide fits/long fits/wide -o two.model
 refused 2 'p[0] is 4: -3 to 3 standard deviations are heads' make bent.model --p 4 -o new
 refused 3 'none.model: cannot be read: No such file or directory' show none.model
+export XDG_CACHE_HOME="$work/cache"
+refused 3 'identities-2.model: cannot be read: No such file or directory; gnathos identities learn --norm 120 makes it' show
+"$gnathos" identities learn fits/* -q >/dev/null
+refused 3 'identities-2.model: is there already; --force replaces it' learn fits/*
+"$gnathos" identities project fits/wide --json >own.json
+"$gnathos" identities show --json >own_show.json
+cmp cache/gnathos/identities-2.model learnt.model || { echo "the user's own model is another"; exit 1; }
+"$gnathos" identities make --random --seed 4 -o own -q >/dev/null
+"$gnathos" identities make learnt.model --random --seed 4 -o named -q >/dev/null
+cmp own/skin.ply named/skin.ply || { echo "the user's own model makes another head"; exit 1; }
+GNATHOS_IDENTITIES=none.model refused 3 'none.model: cannot be read' show
 head -c 100000 bent.model >torn.model
 refused 3 'torn.model: is not a whole model of identities' show torn.model
 refused 3 'head/case.json: is not a whole model of identities' make head/case.json --random -o new

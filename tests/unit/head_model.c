@@ -154,6 +154,7 @@ static void a_model_comes_back_from_its_file_bit_for_bit(void **unused)
                         sizeof(double) * (size_t)m.modes.length * (size_t)m.modes.mode_count);
     assert_memory_equal(back.modes.weight, m.modes.weight, sizeof(double) * (size_t)m.modes.length);
     assert_memory_equal(back.left_out, m.left_out, sizeof m.left_out);
+    assert_memory_equal(back.score, m.score, sizeof(double) * (size_t)(HEADS * m.modes.mode_count));
     assert_string_equal(back.name[7], "h");
     head_model_free(&back);
     head_model_free(&m);

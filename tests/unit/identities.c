@@ -108,12 +108,35 @@ static void coefficients_that_no_head_has_are_refused_before_anything_is_made(vo
     issue_list_free(&warnings);
 }
 
+/* Modes 0 and 1 of these two go together: a drawn head is near one of them. */
+static void a_drawn_head_has_what_goes_together_and_is_nobodys(void **unused)
+{
+    (void)unused;
+    enum { DRAWS = 4000 };
+    double score[] = {1, 1, -1, -1}, p[2], q[2], sum = 0, square[2] = {0};
+    const head_model two = {.score = score, .modes = {.sample_count = 2, .mode_count = 2}};
+    uint64_t state = 7, again = 7;
+    for (int i = 0; i < DRAWS; i++) {
+        head_model_draw(&two, &state, p);
+        if (i == 0) head_model_draw(&two, &again, q);
+        if (i == 0) assert_memory_equal(p, q, sizeof p);
+        for (int k = 0; k < 2; k++) {
+            assert_true(fabs(p[k]) <= 2 / hypot(1, 0.5) && fabs(p[k]) != 1);
+            square[k] += p[k] * p[k] / DRAWS;
+        }
+        sum += p[0] * p[1] / DRAWS;
+    }
+    for (int k = 0; k < 2; k++) assert_near(square[k], 1, 0.08); /* the kernel's tails are cut */
+    assert_near(sum, 0.8, 0.05);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_record_of_a_model_has_every_mode_and_every_head),
         cmocka_unit_test(the_record_of_a_projection_has_its_coefficients_and_errors),
         cmocka_unit_test(the_record_of_a_made_head_tells_draws_of_random_ones_only),
+        cmocka_unit_test(a_drawn_head_has_what_goes_together_and_is_nobodys),
         cmocka_unit_test(coefficients_that_no_head_has_are_refused_before_anything_is_made),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

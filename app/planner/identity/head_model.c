@@ -49,6 +49,9 @@ bool head_model_learn(const head_template *t, const double *const *phi, const ch
     if (ok) {
         m.name = mem_alloc((size_t)count, sizeof *m.name);
         for (int32_t s = 0; s < count; s++) strncpy(m.name[s], name[s], sizeof m.name[s] - 1);
+        m.score = NEW_ARRAY(double, (size_t)count *(size_t)m.modes.mode_count);
+        for (int32_t s = 0; s < count; s++)
+            principal_project(&m.modes, phi[s], m.score + (size_t)s * (size_t)m.modes.mode_count);
         ok = leave_out(t, phi, weight, watch, &m, e);
     }
     free(weight);
@@ -63,6 +66,38 @@ void head_model_free(head_model *m)
 {
     principal_free(&m->modes);
     free(m->name);
+    free(m->score);
     free(m->left_out_rms_mm);
     *m = (head_model){0};
+}
+
+/* S. Vigna's splitmix64. */
+static uint64_t next_bits(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+static double uniform(uint64_t *state) { return ((double)(next_bits(state) >> 11) + 0.5) / 9007199254740992.0; }
+
+/* Normally distributed (Box and Muller 1958), drawn again beyond 2. */
+static double normal(uint64_t *state)
+{
+    for (;;) {
+        double r = sqrt(-2 * log(uniform(state))), x = r * cos(2 * M_PI * uniform(state));
+        if (fabs(x) <= 2) return x;
+    }
+}
+
+void head_model_draw(const head_model *m, uint64_t *state, double *p)
+{
+    static const double kernel_sd = 0.5, most_sd = 3;
+    int32_t modes = m->modes.mode_count;
+    const double *of = m->score + (size_t)modes * (size_t)(uniform(state) * m->modes.sample_count);
+    for (int32_t k = 0; k < modes; k++) {
+        double x = (of[k] + kernel_sd * normal(state)) / hypot(1, kernel_sd);
+        p[k] = fmax(-most_sd, fmin(most_sd, x));
+    }
 }

@@ -1,15 +1,18 @@
 /* Models of identities in files. */
 #include "app/planner/identity/head_model.h"
+#include "app/planner/store/fields.h"
 #include "app/planner/store/pack_file.h"
+#include "app/planner/store/user_cache.h"
 #include "geometry/mem.h"
 #include <assert.h>
 #include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static const char format[] = "gnathos identities 1";
+static const char format[] = "gnathos identities 2";
 
 bool head_model_write(const head_model *m, const char *path, err *e)
 {
@@ -23,12 +26,25 @@ bool head_model_write(const head_model *m, const char *path, err *e)
     pack_put(&f, "mean", p->mean, n * sizeof *p->mean);
     pack_put(&f, "modes", p->mode, n * modes * sizeof *p->mode);
     pack_put(&f, "sd", p->sd, modes * sizeof *p->sd);
+    pack_put(&f, "scores", m->score, samples * modes * sizeof *m->score);
     pack_put(&f, "variance", &p->variance, sizeof p->variance);
     pack_put(&f, "left out rms", m->left_out_rms_mm, (size_t)(m->left_out_modes + 1) * sizeof(double));
     pack_put(&f, "left out", m->left_out, sizeof m->left_out);
     bool ok = pack_write(&f, path, e);
     pack_free(&f);
     return ok;
+}
+
+bool head_model_place(char *path, err *e)
+{
+    static const char variable[] = "GNATHOS_IDENTITIES";
+    const char *named = getenv(variable);
+    char file[64];
+    if (named && *named)
+        return snprintf(path, FIELD_PATH_SIZE, "%s", named) < FIELD_PATH_SIZE ||
+               err_set(e, ERR_INPUT, "%s is longer than %d bytes", variable, FIELD_PATH_SIZE - 1);
+    snprintf(file, sizeof file, "identities-%d.model", HEAD_MODEL_VERSION);
+    return user_cache_path(file, "the model of identities", variable, path, FIELD_PATH_SIZE, e);
 }
 
 /* Its bytes; refuses where they are not `want` items (0: any number but none). */
@@ -84,7 +100,8 @@ static bool take_modes(const pack_file *f, const char *path, const head_template
     p->mean = p->weight ? take_numbers(f, path, "mean", (size_t)p->length, NULL, e) : NULL;
     p->sd = p->mean ? take_numbers(f, path, "sd", 0, &modes, e) : NULL;
     p->mode = p->sd ? take_numbers(f, path, "modes", modes * (size_t)p->length, NULL, e) : NULL;
-    double *variance = p->mode ? take_numbers(f, path, "variance", 1, NULL, e) : NULL;
+    m->score = p->mode ? take_numbers(f, path, "scores", samples * modes, NULL, e) : NULL;
+    double *variance = m->score ? take_numbers(f, path, "variance", 1, NULL, e) : NULL;
     if (!variance) return false;
     p->sample_count = (int32_t)samples;
     p->mode_count = (int32_t)modes;

@@ -1,13 +1,12 @@
 #include "app/planner/identity/template_get.h"
 #include "app/planner/identity/template_make.h"
+#include "app/planner/store/user_cache.h"
 #include "cases/norm_head/norm_case.h"
 #include "geometry/clock.h"
 #include "geometry/write_whole.h"
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* Parts of 2,000 to 11,000 vertices and a tissue of about 7,000 nodes: what networks over many identities can carry. */
@@ -42,20 +41,7 @@ static bool make_from(const char *folder, const task *watch, head_template *out,
     return head_template_make(&c, watch, out, e);
 }
 
-/* Makes every folder of the path that is not there, but not its last part. */
-static bool make_folders(const char *path, err *e)
-{
-    char part[FIELD_PATH_SIZE];
-    for (const char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        snprintf(part, sizeof part, "%.*s", (int)(slash - path), path);
-        struct stat there;
-        if (mkdir(part, 0777) && (errno != EEXIST || stat(part, &there) || !S_ISDIR(there.st_mode)))
-            return err_at(e, ERR_RESOURCE, part, 0, NULL,
-                          "cannot be made as a folder (%s); GNATHOS_TEMPLATE names another file for the template",
-                          strerror(errno));
-    }
-    return true;
-}
+static const char what[] = "the template of heads", variable[] = "GNATHOS_TEMPLATE";
 
 static bool make_and_keep(const char *path, const task *watch, head_template *out, err *e)
 {
@@ -63,7 +49,7 @@ static bool make_and_keep(const char *path, const task *watch, head_template *ou
     whole_folder folder;
     head_template t = {0};
     snprintf(beside, sizeof beside, "%s.%ld", path, (long)getpid());
-    if (!make_folders(path, e) || !whole_folder_open(beside, &folder, e)) return false;
+    if (!user_cache_folders(path, "the template", variable, e) || !whole_folder_open(beside, &folder, e)) return false;
     bool ok = make_from(folder.temporary, watch, &t, e);
     whole_folder_abandon(&folder);
     if (!ok) return err_prefix(e, "making the template of heads");
@@ -85,26 +71,20 @@ static bool is_there(const char *path) { return !access(path, F_OK); }
 
 static bool find(template_source *s, err *e)
 {
-    const char *named = getenv("GNATHOS_TEMPLATE"), *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    const char *named = getenv(variable);
     int size = sizeof s->path, length;
     s->place = TEMPLATE_NAMED;
     if (named && *named) {
         length = snprintf(s->path, sizeof s->path, "%s", named);
-    } else {
-        s->place = TEMPLATE_INSTALLED;
-        length = snprintf(s->path, sizeof s->path, "%s/template-%d.pack", GNATHOS_DATA_DIR, HEAD_TEMPLATE_VERSION);
-        if (is_there(s->path)) return true;
-        s->place = TEMPLATE_CACHED;
-        bool xdg = cache && cache[0] == '/'; /* a relative one is to be ignored, says the specification of XDG */
-        if (!xdg && !(home && *home))
-            return err_set(e, ERR_RESOURCE,
-                           "no place to keep the template of heads: neither GNATHOS_TEMPLATE, "
-                           "XDG_CACHE_HOME nor HOME is set");
-        length = snprintf(s->path, sizeof s->path, "%s%s/gnathos/template-%d.pack", xdg ? cache : home,
-                          xdg ? "" : "/.cache", HEAD_TEMPLATE_VERSION);
+        return length < size || err_set(e, ERR_INPUT, "the path of %s is longer than %d bytes", what, size - 1);
     }
-    return length < size ||
-           err_set(e, ERR_INPUT, "the path of the template of heads is longer than %d bytes", size - 1);
+    char file[64];
+    s->place = TEMPLATE_INSTALLED;
+    snprintf(file, sizeof file, "template-%d.pack", HEAD_TEMPLATE_VERSION);
+    snprintf(s->path, sizeof s->path, "%s/%s", GNATHOS_DATA_DIR, file);
+    if (is_there(s->path)) return true;
+    s->place = TEMPLATE_CACHED;
+    return user_cache_path(file, what, variable, s->path, sizeof s->path, e);
 }
 
 bool head_template_get(const task *watch, head_template *out, template_source *source, err *e)
