@@ -94,13 +94,15 @@ static bool write_pictures(const run_context *r, const fit_record *of, err *e)
     const fit_options *o = r->own;
 #if GNATHOS_WITH_RENDER
     if (o->no_pictures) return true;
-    static const char *const name[] = {"residual_skin.png", "residual_bones.png", "beside.png"};
+    static const char *const name[] = {"residual_skin.png", "residual_bones.png", "residual_scan.png", "beside.png"};
     const fit_pictures p = {of->head, of->fit, of->scan, r->patient.name};
     bool ok = true;
     command_progress_at(&r->common, "drawing", -1);
-    for (int i = 0; ok && i < 3; i++) {
+    for (int i = 0; ok && i < 4; i++) {
         char *path = output_dir_file(&r->dir, name[i]);
-        ok = i < 2 ? fit_residual_write(&p, i, range_mm, path, e) : fit_beside_write(&p, path, e);
+        ok = i < 2    ? fit_residual_write(&p, i, range_mm, path, e)
+             : i == 2 ? fit_scan_write(&p, range_mm, path, e)
+                      : fit_beside_write(&p, path, e);
         free(path);
     }
     return ok;
@@ -122,12 +124,17 @@ static bool write_all(run_context *r, const fit_record *of, const json_t *record
 
 static void warn_part(const run_context *r, const fit_record *of, case_surface p)
 {
-    double absent = fit_share(of->fit, p, GUESS_ABSENT), closed = fit_share(of->fit, p, GUESS_CLOSED);
+    double absent = fit_share(of->fit, p, GUESS_ABSENT), closed = fit_share(of->fit, p, GUESS_CLOSED),
+           missed = fit_share(of->fit, p, GUESS_MISSED);
     if (absent > told_share)
         command_note(&r->common, "%s: warning: %.0f %% of it is guessed from the %s: the scan has %s",
                      case_surface_name(p), 100 * absent,
                      of->completion && of->completion->likeliest.mode_count ? "model" : "template",
                      of->scan->part[p].triangle_count ? "nothing there" : "no such surface");
+    if (missed > told_share)
+        command_note(&r->common,
+                     "%s: warning: %.0f %% of it is missed: the scan has a surface there, more than %g mm off",
+                     case_surface_name(p), 100 * missed, fit_found_mm);
     if (closed > 0)
         command_note(&r->common,
                      "%s: warning: %.0f %% of it is guessed: it went with the mouth, which the scan has open",
@@ -143,6 +150,14 @@ static void warn(const run_context *r, const fit_record *of)
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) warn_part(r, of, (case_surface)p);
 }
 
+static void print_gaps(const registration_gaps *g)
+{
+    if (g->with_target)
+        printf(" %8.2f %8.2f %8.2f", g->mean_mm, g->p95_mm, g->max_mm);
+    else
+        printf(" %8s %8s %8s", "-", "-", "-");
+}
+
 static void print_plain(const run_context *r, const fit_record *of)
 {
     const head_fit *f = of->fit;
@@ -150,18 +165,21 @@ static void print_plain(const run_context *r, const fit_record *of)
     printf("%s: placed by %s, turned by %.1f deg, size %.3f of the template's\n", r->patient.name,
            f->place.by_landmarks ? "landmarks" : "its surfaces", rigid_angle(&f->place.motion) * 180 / 3.14159265358979,
            f->place.scale);
-    printf("%-14s %9s %9s %9s %9s %9s\n", "distance, mm", "mean", "95 %", "largest", "vertices", "guessed");
+    printf("%-14s %26s   %26s\n", "distance, mm", "template to scan", "scan to template");
+    printf("%-14s %8s %8s %8s   %8s %8s %8s %9s %8s\n", "", "mean", "95 %", "largest", "mean", "95 %", "largest",
+           "guessed", "missed");
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
-        const registration_gaps *g = &f->gaps[p];
-        printf("%-14s ", case_surface_name((case_surface)p));
-        if (g->with_target)
-            printf("%9.2f %9.2f %9.2f", g->mean_mm, g->p95_mm, g->max_mm);
-        else
-            printf("%9s %9s %9s", "-", "-", "-");
-        printf(" %9d %7.1f %%\n", g->vertices, 100 * fit_guessed_share(f, (case_surface)p));
+        printf("%-14s", case_surface_name((case_surface)p));
+        print_gaps(&f->gaps[p]);
+        printf("  ");
+        print_gaps(&f->back[p]);
+        printf(" %7.1f %% %6.1f %%\n", 100 * fit_guessed_share(f, (case_surface)p),
+               100 * fit_share(f, (case_surface)p, GUESS_MISSED));
     }
     if (of->completion) printf("%s\n", head_closing_text(&of->completion->jaw, text, sizeof text));
-    printf("guessed: where the scan has no surface the shape is the template's, bent along\n");
+    printf("guessed: where the scan has no surface the shape is the template's, bent along; missed: it has one, %g to "
+           "%g mm off\n",
+           fit_found_mm, fit_missed_mm);
     printf("tissue: smallest J %.3f, %d tets inside out; %.1f s (place %.1f, bones %.1f, tissue %.1f)\n", f->min_j,
            f->inverted_tets, f->total_s, f->place_s, f->bones_s, f->tissue_s);
     printf("%s\n", command_shown(r->out_path));

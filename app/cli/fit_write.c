@@ -13,17 +13,17 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static void colour(surface *s, const double *gap_mm, const uint8_t *guessed, double range_mm)
+static void colour(surface *s, const head_fit *f, case_surface part, double range_mm)
 {
 #if GNATHOS_WITH_RENDER
     s->rgb = NEW_ARRAY(uint8_t, 3 * (size_t)s->vertex_count);
     for (size_t v = 0; v < (size_t)s->vertex_count; v++) {
         double rgb[3];
-        colormap_color(COLORMAP_VIRIDIS, guessed[v] ? (double)NAN : gap_mm[v], 0, range_mm, rgb);
+        colormap_color(COLORMAP_VIRIDIS, fit_shown_mm(f, part, v), 0, range_mm, rgb);
         for (size_t c = 0; c < 3; c++) s->rgb[3 * v + c] = (uint8_t)lround(255 * rgb[c]);
     }
 #else
-    (void)s, (void)gap_mm, (void)guessed, (void)range_mm;
+    (void)s, (void)f, (void)part, (void)range_mm;
 #endif
 }
 
@@ -39,12 +39,24 @@ static bool write_part(const fit_record *r, case_surface part, double range_mm, 
     snprintf(file, sizeof file, "%s.vtp", case_surface_name(part));
     char *vtp = output_dir_file(d, file);
     bool ok = mesh_write_surface_arrays(&s, arrays, 2, vtp, e);
-    colour(&s, r->fit->gap_mm[part], r->fit->guessed[part], range_mm);
+    colour(&s, r->fit, part, range_mm);
     ok = ok && mesh_write_surface(&s, ply, e);
     free(ply);
     free(vtp);
     free(guessed);
     surface_free(&s);
+    return ok;
+}
+
+static bool write_scan(const fit_record *r, case_surface part, const output_dir *d, err *e)
+{
+    if (!r->fit->back_mm[part]) return true;
+    const point_array array = {"distance_mm", 1, r->fit->back_mm[part]};
+    char file[64];
+    snprintf(file, sizeof file, "scan_%s.vtp", case_surface_name(part));
+    char *vtp = output_dir_file(d, file);
+    bool ok = mesh_write_surface_arrays(&r->scan->part[part], &array, 1, vtp, e);
+    free(vtp);
     return ok;
 }
 
@@ -106,7 +118,8 @@ static bool write_case(const fit_record *r, const char *name, const output_dir *
 bool fit_write_files(const fit_record *r, const char *case_name, double range_mm, const output_dir *d, err *e)
 {
     bool ok = true;
-    for (int p = 0; ok && p < CASE_SURFACE_COUNT; p++) ok = write_part(r, (case_surface)p, range_mm, d, e);
+    for (int p = 0; ok && p < CASE_SURFACE_COUNT; p++)
+        ok = write_part(r, (case_surface)p, range_mm, d, e) && write_scan(r, (case_surface)p, d, e);
     char *pack = output_dir_file(d, "fit.pack");
     ok = ok && write_tissue(r, d, e) && head_fit_write(r->head, r->fit, pack, e) && write_case(r, case_name, d, e);
     free(pack);

@@ -18,7 +18,7 @@ static surface fitted(const fit_pictures *p, bool bones, double **gap)
         surface one = head_part(p->head, &p->fit->shape, (case_surface)i), sum = surface_joined(&all, &one);
         distance = GROW_ARRAY(double, distance, sum.vertex_count);
         for (size_t v = 0; v < (size_t)one.vertex_count; v++)
-            distance[(size_t)all.vertex_count + v] = p->fit->guessed[i][v] ? (double)NAN : p->fit->gap_mm[i][v];
+            distance[(size_t)all.vertex_count + v] = fit_shown_mm(p->fit, (case_surface)i, v);
         surface_free(&one);
         surface_free(&all);
         all = sum;
@@ -49,25 +49,22 @@ static bool frame_of(const fit_pictures *p, landmarks *points, head_frame *f, er
     return ok;
 }
 
-bool fit_residual_write(const fit_pictures *p, bool bones, double range_mm, const char *path, err *e)
+/* gap_mm of the shape's vertices in colours; front and both sides. */
+static bool draw_gaps(const fit_pictures *p, const surface *shape, const double *gap_mm, double range_mm,
+                      const char *title, const char *caption, const char *path, err *e)
 {
     static const panel panels[] = {{SHOW_SIGNED, POSE_AFTER, 0, 0, 0, "Front"},
                                    {SHOW_SIGNED, POSE_AFTER, 90, 0, 0, "Left profile"},
                                    {SHOW_SIGNED, POSE_AFTER, -90, 0, 0, "Right profile"}};
-    const sheet what = {bones ? "Fitted bones and teeth against the scan" : "Fitted skin against the scan",
-                        panels,
-                        3,
-                        3,
-                        WIDTH,
-                        HEIGHT};
-    double *gap;
+    const sheet what = {title, panels, 3, 3, WIDTH, HEIGHT};
     landmarks points;
-    subject s = {
-        .case_name = "", .plan_text = p->title, .signed_caption = "distance to the scan, mm; dark grey: guessed"};
+    subject s = {.case_name = "",
+                 .plan_text = p->title,
+                 .signed_caption = caption,
+                 .skin_before = shape,
+                 .skin_after = shape,
+                 .signed_mm = gap_mm};
     if (!frame_of(p, &points, &s.frame, e)) return false;
-    surface shape = fitted(p, bones, &gap);
-    s.skin_before = s.skin_after = &shape;
-    s.signed_mm = gap;
     s.before = s.after = &points;
     gallery_style style = gallery_style_default();
     style.signed_mm = range_mm;
@@ -76,9 +73,26 @@ bool fit_residual_write(const fit_pictures *p, bool bones, double range_mm, cons
     bool ok = gallery_open(&s, &style, &g, e) && gallery_write(g, &what, path, e);
     gallery_close(&g);
     landmarks_free(&points);
+    return ok;
+}
+
+bool fit_residual_write(const fit_pictures *p, bool bones, double range_mm, const char *path, err *e)
+{
+    double *gap;
+    surface shape = fitted(p, bones, &gap);
+    bool ok = draw_gaps(p, &shape, gap, range_mm,
+                        bones ? "Fitted bones and teeth against the scan" : "Fitted skin against the scan",
+                        "distance to the scan, mm; dark grey: guessed", path, e);
     surface_free(&shape);
     free(gap);
     return ok;
+}
+
+bool fit_scan_write(const fit_pictures *p, double range_mm, const char *path, err *e)
+{
+    return draw_gaps(p, &p->scan->part[CASE_SKIN], p->fit->back_mm[CASE_SKIN], range_mm,
+                     "The scan's skin against the fitted one",
+                     "distance to the fitted skin, mm; dark grey: not on the outside or not covered", path, e);
 }
 
 /* Front and left profile of one surface. */

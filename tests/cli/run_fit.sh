@@ -59,23 +59,27 @@ assert f["place"]["by_landmarks"] and abs(f["place"]["scale"] - 1.04) < 1e-6 and
 assert f["tissue"]["inverted_tets"] == 0 and f["tissue"]["min_j"] > 0.3, f["tissue"]
 for name, p in f["parts"].items():
     assert p["scanned"] and p["mean_mm"] < 0.2, (name, p)
-    assert abs(p["guessed_share"] - (1 - p["with_target"] / p["vertices"])) < 1e-12
+    assert abs(p["guessed_share"] + p["missed_share"] - (1 - p["with_target"] / p["vertices"])) < 1e-12
+    back = p["scan"]
+    assert 0 < back["covered"] <= back["vertices"] and back["mean_mm"] < 0.3 <= back["max_mm"] + 0.3, (name, back)
     head, arrays = (open(f"{work}/out/{name}.{kind}", "rb").read(3000) for kind in ("ply", "vtp"))
     assert b"property uchar red" in head and b"element vertex %d\n" % p["vertices"] in head, name
     assert b'"distance_mm"' in arrays and b'"guessed"' in arrays, name
+    assert b'"distance_mm"' in open(f"{work}/out/scan_{name}.vtp", "rb").read(3000), name
 assert 0.1 < f["parts"]["skin"]["guessed_share"] < 0.6, f["parts"]["skin"]
 assert f["parts"]["skull"]["guessed_share"] < 0.02
 t = meshio.read(work + "/out/tissue.vtu")
 assert {"J", "to_rest", "attachment", "segment"} <= set(t.point_data) and t.point_data["J"].min() > 0
 case = json.load(open(work + "/out/case/case.json"))
-assert case["guessed"]["skin"] == f["parts"]["skin"]["guessed_share"] and case["guessed"]["jaw_turned_deg"] == 0, case
+skin = f["parts"]["skin"]
+assert abs(case["guessed"]["skin"] - skin["guessed_share"] - skin["missed_share"]) < 1e-12 and case["guessed"]["jaw_turned_deg"] == 0, case
 assert case["guessed"]["landmarks"] == f["guessed_landmarks"] and not {"N", "U1", "Me"} & set(f["guessed_landmarks"]), case
 # landmarks lie where the patient's are
 at = {p["label"]: p["position"] for p in json.load(open(work + "/out/case/landmarks.mrk.json"))["markups"][0]["controlPoints"]}
 own = {p["label"]: p["position"] for p in json.load(open(work + "/patient/landmarks.mrk.json"))["markups"][0]["controlPoints"]}
 away = sorted(math.dist(at[l], own[l]) for l in own)
 assert set(at) == set(own) and away[len(away) // 2] < 0.3 and away[-1] < 3, away[-5:]
-for picture in ("residual_skin", "residual_bones", "beside"):
+for picture in ("residual_skin", "residual_bones", "residual_scan", "beside"):
     assert os.path.getsize(f"{work}/out/{picture}.png") > 20000, picture
 PY
 refused() { # CASE WORDS STATUS

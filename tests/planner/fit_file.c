@@ -29,6 +29,8 @@ static int open_it(void **state)
             f.guessed[p][v] = v % 4 == 0;
             f.gap_mm[p][v] = v % 4 ? 0.001 * v : (double)NAN;
         }
+        f.back_missed[p] = 0.125;
+        f.back[p] = (registration_gaps){.vertices = 7, .with_target = 5, .max_mm = 9};
         f.gaps[p] = (registration_gaps){
             .vertices = n, .with_target = n - (n + 3) / 4, .mean_mm = 0.25, .p95_mm = 1, .max_mm = 3};
     }
@@ -59,6 +61,7 @@ static void comes_back_as_it_was(void **state)
         assert_memory_equal(g.guessed[p], f.guessed[p], n);
         assert_int_equal(g.gaps[p].with_target, f.gaps[p].with_target);
         assert_true(g.gaps[p].p95_mm == 1 && g.gaps[p].max_mm == 3);
+        assert_true(g.back[p].with_target == 5 && g.back[p].max_mm == 9 && g.back_missed[p] == 0.125);
     }
     assert_memory_equal(g.shape.rest, f.shape.rest, 3 * (size_t)t.tissue.mesh.vertex_count * sizeof(double));
     assert_memory_equal(g.shape.neutral, f.shape.neutral, 3 * (size_t)t.tissue.mesh.vertex_count * sizeof(double));

@@ -8,7 +8,7 @@
 
 enum {
     PLACE_NUMBERS = 17,
-    GAP_NUMBERS = 5,
+    GAP_NUMBERS = 11,
     COST_NUMBERS = 8,
     NUMBERS = PLACE_NUMBERS + GAP_NUMBERS * CASE_SURFACE_COUNT + COST_NUMBERS
 };
@@ -26,6 +26,15 @@ static double roll(tape *t, double value)
     return t->x[t->at++] = value;
 }
 
+static void roll_gaps(tape *t, registration_gaps *g)
+{
+    g->vertices = (int32_t)roll(t, g->vertices);
+    g->with_target = (int32_t)roll(t, g->with_target);
+    g->mean_mm = roll(t, g->mean_mm);
+    g->p95_mm = roll(t, g->p95_mm);
+    g->max_mm = roll(t, g->max_mm);
+}
+
 static void roll_fit(tape *t, head_fit *f)
 {
     for (int i = 0; i < 9; i++) f->place.motion.r[i] = roll(t, f->place.motion.r[i]);
@@ -36,12 +45,9 @@ static void roll_fit(tape *t, head_fit *f)
     f->place.turn_spread_deg = roll(t, f->place.turn_spread_deg);
     f->place.shift_spread_mm = roll(t, f->place.shift_spread_mm);
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
-        registration_gaps *g = &f->gaps[p];
-        g->vertices = (int32_t)roll(t, g->vertices);
-        g->with_target = (int32_t)roll(t, g->with_target);
-        g->mean_mm = roll(t, g->mean_mm);
-        g->p95_mm = roll(t, g->p95_mm);
-        g->max_mm = roll(t, g->max_mm);
+        roll_gaps(t, &f->gaps[p]);
+        roll_gaps(t, &f->back[p]);
+        f->back_missed[p] = roll(t, f->back_missed[p]);
     }
     f->min_j = roll(t, f->min_j);
     f->inverted_tets = (int32_t)roll(t, f->inverted_tets);

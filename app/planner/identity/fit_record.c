@@ -11,7 +11,10 @@ double fit_share(const head_fit *f, case_surface part, head_guess why)
     return count ? (double)found / count : 0;
 }
 
-double fit_guessed_share(const head_fit *f, case_surface part) { return 1 - fit_share(f, part, GUESS_NONE); }
+double fit_guessed_share(const head_fit *f, case_surface part)
+{
+    return fit_share(f, part, GUESS_ABSENT) + fit_share(f, part, GUESS_CLOSED);
+}
 
 bool fit_point_is_guessed(const fit_record *r, const head_point *p)
 {
@@ -25,7 +28,7 @@ bool fit_point_is_guessed(const fit_record *r, const head_point *p)
 case_guess fit_case_guess(const fit_record *r)
 {
     case_guess g = {.jaw_turned_deg = r->completion ? r->completion->jaw.turn_deg : 0};
-    for (int p = 0; p < CASE_SURFACE_COUNT; p++) g.share[p] = fit_guessed_share(r->fit, (case_surface)p);
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) g.share[p] = 1 - fit_share(r->fit, (case_surface)p, GUESS_NONE);
     for (int32_t i = 0; i < r->head->point_count && g.point_count < CASE_GUESSED_POINTS_MAX; i++)
         if (fit_point_is_guessed(r, &r->head->point[i]))
             memcpy(g.point[g.point_count++], r->head->point[i].label, LANDMARK_LABEL_SIZE);
@@ -58,36 +61,53 @@ static double total_s(const void *of) { return fit_of(of)->total_s; }
 
 typedef struct part_fit {
     bool scanned;
-    int vertices, with_target;
-    double guessed, closed, mean, p95, max;
+    int vertices, with_target, scan_vertices, covered;
+    double guessed, closed, missed, gap[3], back[3], back_missed;
 } part_fit;
 static const record_row part_row[] = {
     ROW(part_fit, scanned, "scanned", NULL, "whether the case has this surface; if not, all of it is guessed"),
     ROW(part_fit, vertices, "vertices", NULL, "of the template"),
-    ROW(part_fit, with_target, "with_target", NULL, "of these, where the scan has a surface; the others are guessed"),
+    ROW(part_fit, with_target, "with_target", NULL, "of these, where the scan has a surface within 5 mm"),
     ROW(part_fit, guessed, "guessed_share", NULL, "share of the vertices that are guessed: absent and closed"),
     ROW(part_fit, closed, "closed_share", NULL, "share that went with a mouth that was closed (--complete)"),
-    ROW(part_fit, mean, "mean_mm", "mm", "distance to the scan, where it has a surface"),
-    ROW(part_fit, p95, "p95_mm", "mm", "the same, 95 % are nearer"),
-    ROW(part_fit, max, "max_mm", "mm", "the same, the farthest"),
+    ROW(part_fit, missed, "missed_share", NULL, "share that the fit missed: the scan's surface is 5 to 15 mm off"),
+    ROW(part_fit, gap[0], "mean_mm", "mm", "distance to the scan, where it has a surface"),
+    ROW(part_fit, gap[1], "p95_mm", "mm", "the same, 95 % are nearer"),
+    ROW(part_fit, gap[2], "max_mm", "mm", "the same, the farthest"),
+    ROW(part_fit, scan_vertices, "scan.vertices", NULL, "of the scan"),
+    ROW(part_fit, covered, "scan.covered", NULL, "of these, on the outside and within 15 mm of the template"),
+    ROW(part_fit, back[0], "scan.mean_mm", "mm", "distance of those from the fitted template"),
+    ROW(part_fit, back[1], "scan.p95_mm", "mm", "the same, 95 % are nearer"),
+    ROW(part_fit, back[2], "scan.max_mm", "mm", "the same, the farthest"),
+    ROW(part_fit, back_missed, "scan.missed_share", NULL, "share of those that are more than 5 mm off"),
 };
 static const record_table part_table = {.title = "How a part of the template lies on the scan", RECORD_ROWS(part_row)};
+
+static void put_gaps(const registration_gaps *g, double out[3])
+{
+    out[0] = g->with_target ? g->mean_mm : (double)NAN;
+    out[1] = g->with_target ? g->p95_mm : (double)NAN;
+    out[2] = g->with_target ? g->max_mm : (double)NAN;
+}
 
 static const void *next_part(const void *of, int *i, const char **key, void *space)
 {
     if (*i == CASE_SURFACE_COUNT) return NULL;
-    const registration_gaps *g = &fit_of(of)->gaps[*i];
-    bool any = g->with_target > 0;
+    const head_fit *f = fit_of(of);
+    case_surface which = (case_surface)*i;
     part_fit *p = space;
-    *key = case_surface_name((case_surface)*i);
-    *p = (part_fit){.scanned = ((const fit_record *)of)->scan->part[*i].triangle_count > 0,
-                    .vertices = g->vertices,
-                    .with_target = g->with_target,
-                    .guessed = fit_guessed_share(fit_of(of), (case_surface)*i),
-                    .closed = fit_share(fit_of(of), (case_surface)*i, GUESS_CLOSED),
-                    .mean = any ? g->mean_mm : (double)NAN,
-                    .p95 = any ? g->p95_mm : (double)NAN,
-                    .max = any ? g->max_mm : (double)NAN};
+    *key = case_surface_name(which);
+    *p = (part_fit){.scanned = ((const fit_record *)of)->scan->part[which].triangle_count > 0,
+                    .vertices = f->gaps[which].vertices,
+                    .with_target = f->gaps[which].with_target,
+                    .scan_vertices = f->back[which].vertices,
+                    .covered = f->back[which].with_target,
+                    .guessed = fit_guessed_share(f, which),
+                    .closed = fit_share(f, which, GUESS_CLOSED),
+                    .missed = fit_share(f, which, GUESS_MISSED),
+                    .back_missed = f->back[which].with_target ? f->back_missed[which] : (double)NAN};
+    put_gaps(&f->gaps[which], p->gap);
+    put_gaps(&f->back[which], p->back);
     return p;
 }
 

@@ -13,7 +13,7 @@ typedef struct fit_record {
 } fit_record;
 extern const record_table fit_record_table; /* kind "fit" */
 
-/* Share of the part's vertices that are guessed, for one reason or for any. */
+/* Share of the part's vertices that are not the scan's for a reason, and of those that are guessed: absent, closed. */
 double fit_share(const head_fit *f, case_surface part, head_guess why);
 double fit_guessed_share(const head_fit *f, case_surface part);
 /* Whether the landmark hangs where the scan has nothing; those inside are as their part is for the most. */

@@ -15,6 +15,9 @@ typedef struct fit_state {
     fit_cost cost;
 } fit_state;
 
+/* fit_measure.c: gaps both ways and guesses of a part as it is. */
+void fit_measure_part(const fit_state *f, const head_scan *s, case_surface p, head_fit *out);
+
 /* fit_bones.c: bends all as one, then each bone on its own, and lets the teeth follow. */
 /* 1 for each vertex of the teeth that lies in its jaw or next to it; the caller frees. */
 uint8_t *fit_buried(const surface *teeth, const surface *jaw);

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What of the patient a vertex of the fitted template is measured against. */
-static const target_rules measured = {5, 0.5};
-
 head_fit_params head_fit_params_default(void) { return (head_fit_params){.use_landmarks = true}; }
 
 void head_fit_free(head_fit *f)
@@ -17,6 +14,7 @@ void head_fit_free(head_fit *f)
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
         free(f->gap_mm[p]);
         free(f->guessed[p]);
+        free(f->back_mm[p]);
     }
     *f = (head_fit){0};
 }
@@ -59,52 +57,12 @@ static void end(fit_state *f)
     free(f->placed_nodes);
 }
 
-static void measure_part(const fit_state *f, case_surface p, head_fit *out)
-{
-    const surface *s = &f->at[p];
-    size_t n = (size_t)s->vertex_count;
-    double *gap = NEW_ARRAY(double, n), *normal = surface_vertex_normals(s);
-    int32_t count = 0;
-    out->gap_mm[p] = NEW_ARRAY(double, n);
-    out->guessed[p] = NEW_ARRAY(uint8_t, n);
-    for (size_t v = 0; v < n; v++) {
-        target_point hit;
-        double d = HUGE_VAL;
-        if (f->target[p]) d = target_surface_ask(f->target[p], s->xyz + 3 * v, normal + 3 * v, &measured, &hit);
-        out->guessed[p][v] = d == HUGE_VAL ? GUESS_ABSENT : GUESS_NONE;
-        out->gap_mm[p][v] = d == HUGE_VAL ? (double)NAN : d;
-        if (d < HUGE_VAL) gap[count++] = d;
-    }
-    out->gaps[p] = registration_gaps_of(gap, count, s->vertex_count);
-    free(gap);
-    free(normal);
-}
-
-void head_fit_measure_tets(const head_template *t, head_fit *f)
-{
-    const tetmesh *m = &t->tissue.mesh;
-    double size = pow(f->place.scale, 3);
-    const double *pairs[2][2] = {{t->rest, f->shape.rest}, {m->xyz, f->shape.neutral}};
-    f->min_j = HUGE_VAL;
-    f->inverted_tets = 0;
-    for (int k = 0; k < 2; k++)
-        for (size_t i = 0; i < (size_t)m->tet_count; i++) {
-            const double *p[2][4];
-            for (int side = 0; side < 2; side++)
-                for (size_t c = 0; c < 4; c++) p[side][c] = pairs[k][side] + 3 * (size_t)m->tet[4 * i + c];
-            double before = vec_six_volume(p[0][0], p[0][1], p[0][2], p[0][3]),
-                   after = vec_six_volume(p[1][0], p[1][1], p[1][2], p[1][3]);
-            f->min_j = fmin(f->min_j, after / before / size);
-            f->inverted_tets += !(after > 0);
-        }
-}
-
-static void finish(fit_state *f, head_fit *out)
+static void finish(fit_state *f, const head_scan *s, head_fit *out)
 {
     size_t n = 3 * (size_t)f->t->tissue.mesh.vertex_count;
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
         out->shape.part[p] = COPY_ARRAY(double, f->at[p].xyz, 3 * (size_t)f->at[p].vertex_count);
-        measure_part(f, (case_surface)p, out);
+        fit_measure_part(f, s, (case_surface)p, out);
     }
     out->shape.neutral = COPY_ARRAY(double, f->nodes, n);
     out->shape.rest = NEW_ARRAY(double, n);
@@ -132,7 +90,7 @@ bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_pa
     if (ok) {
         fit.total_s = clock_s() - start;
         fit.tissue_s = fit.total_s - fit.bones_s;
-        finish(&f, &fit);
+        finish(&f, s, &fit);
         if (fit.inverted_tets)
             ok = err_set(e, ERR_NOT_CONVERGED, "the fit turns %d tets of the tissue inside out", fit.inverted_tets);
     }

@@ -17,15 +17,21 @@ head_fit_params head_fit_params_default(void);
 typedef enum head_guess {
     GUESS_NONE,   /* it is */
     GUESS_ABSENT, /* the scan has none there: the place is the template's, bent along */
-    GUESS_CLOSED  /* the scan has it in another place: it went with a mouth that was closed (head_complete) */
+    GUESS_CLOSED, /* the scan has it in another place: it went with a mouth that was closed (head_complete) */
+    GUESS_MISSED  /* the scan has a surface across from it, but 5 to 15 mm off: the fit did not reach it */
 } head_guess;
+
+extern const double fit_found_mm, fit_missed_mm; /* 5 and 15 */
 
 typedef struct head_fit {
     head_place place;
-    head_shape shape;                     /* in the patient's frame */
-    double *gap_mm[CASE_SURFACE_COUNT];   /* [vertex_count] distance to the patient's surface; NAN: no target there */
-    uint8_t *guessed[CASE_SURFACE_COUNT]; /* [vertex_count] head_guess */
-    registration_gaps gaps[CASE_SURFACE_COUNT]; /* from the template's vertices to the patient's surface */
+    head_shape shape;                   /* in the patient's frame */
+    double *gap_mm[CASE_SURFACE_COUNT]; /* [vertex_count] to the patient's surface, up to 15; NAN: it has none there */
+    uint8_t *guessed[CASE_SURFACE_COUNT];       /* [vertex_count] head_guess */
+    registration_gaps gaps[CASE_SURFACE_COUNT]; /* from the template's vertices to the patient's surface, up to 5 mm */
+    registration_gaps back[CASE_SURFACE_COUNT]; /* from the patient's, where they lie outside and within 15 mm of it */
+    double *back_mm[CASE_SURFACE_COUNT];        /* [vertices of the scan] NAN: others. NULL: no scan, or of a file */
+    double back_missed[CASE_SURFACE_COUNT];     /* share of these that are farther than 5 mm */
     double min_j;                               /* of the tissue against the template, rest and neutral */
     int32_t inverted_tets;
     int iterations, factorisations;
@@ -41,4 +47,6 @@ bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_pa
                    const task *watch, head_fit *out, err *e) MUST_CHECK;
 /* min_j and inverted_tets of the shape as it is, the place's size taken out. */
 void head_fit_measure_tets(const head_template *t, head_fit *f);
+/* What a picture shows of a vertex: its gap, NAN where it is absent or closed. */
+double fit_shown_mm(const head_fit *f, case_surface part, size_t vertex);
 void head_fit_free(head_fit *f);

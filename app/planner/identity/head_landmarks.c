@@ -38,7 +38,7 @@ static double gap_around(const head_template *t, const head_fit *f, int32_t part
     for (int32_t v = 0; v < t->part[part].vertex_count; v++) {
         if (vec_distance(at + 3 * (size_t)v, x) > around_mm) continue;
         near++;
-        if (isnan(f->gap_mm[part][v])) continue;
+        if (f->guessed[part][v]) continue;
         with++;
         sum += f->gap_mm[part][v];
     }
