@@ -1,6 +1,7 @@
 /* tissue: tetrahedra between skin and wrapped skeleton, with the attachment of each node. */
 #pragma once
 #include "geometry/attach_map.h"
+#include "geometry/clock.h"
 #include "geometry/embed.h"
 #include "geometry/frame.h"
 #include "geometry/landmarks.h"
@@ -38,6 +39,7 @@ typedef struct tissue_report {
     double max_bone_gap_mm; /* largest distance of a tied node from its bone */
     double skin_gap_mean_mm, skin_gap_max_mm; /* of the skin's vertices from the tets that carry them */
     char left_out[512];                       /* what the domain leaves out, in words */
+    clock_span distances, mesh, attachment;   /* skin and bones on grids, Mesh_3, onto the bone and what hangs on it */
 } tissue_report;
 
 /* The sheet through the lip line: level from front to back (along Frankfort), a parabola through the mouth corners

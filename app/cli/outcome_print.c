@@ -71,7 +71,8 @@ void outcome_print(const outcome *o)
            "%.2f\n",
            o->plan->name[0] ? o->plan->name : "plan", solve_outcome_text(q->outcome), q->iterations,
            outcome_relative_residual(q), q->extremes.min_j, q->extremes.inverted_count, q->extremes.max_stretch);
-    printf("prepare %.1f s%s, solve %.1f s\n", o->prepare_s, o->prepared->reused ? " (reused)" : "", o->solve_s);
+    printf("prepare %.1f s%s, solve %.1f s\n", o->stages.prepare.wall_s, o->prepared->reused ? " (reused)" : "",
+           o->stages.ready.wall_s + o->stages.solve.wall_s);
     print_scene(o);
     if (q->extremes.inverted_count > 0) {
         double middle[3], away = outcome_worst_tet(o, middle);

@@ -70,11 +70,11 @@ static bool write_all(const run_context *r, outcome *o, json_t **record, err *e)
 {
     const output_dir *dir = &r->dir;
     bool ok = true;
-    double start = clock_s();
+    clock_span begin = clock_now();
     if (o->points) {
         command_progress_at(&r->common, "writing the meshes", 0.8);
         ok = outcome_write_meshes(o, dir, e);
-        o->write_s = clock_s() - start;
+        o->stages.write = clock_lap(&begin);
 #if GNATHOS_WITH_RENDER
         const predict_options *in = r->own;
         if (ok && !in->no_pictures) {
@@ -82,7 +82,7 @@ static bool write_all(const run_context *r, outcome *o, json_t **record, err *e)
             ok = draw(o, dir, e);
         }
 #endif
-        o->pictures_s = clock_s() - start - o->write_s;
+        o->stages.pictures = clock_lap(&begin);
     }
     if (ok && command_interrupted()) ok = err_set(e, ERR_INTERRUPTED, "interrupted; nothing was written");
     if (ok) {
@@ -140,12 +140,15 @@ static bool refuse_unsolved(const run_context *r, const outcome *o, err *e)
 static bool run(run_context *r, err *e)
 {
     const predict_options *in = r->own;
-    double prepare_s = clock_s() - r->start_s;
+    clock_span begin = r->start, opened = clock_lap(&begin);
     judgement limits;
     prediction made;
-    if (!judge_bones_first(r, &limits, e) || !predict(r, &limits, &made, e)) return false;
+    if (!judge_bones_first(r, &limits, e)) return false;
+    clock_span judged = clock_lap(&begin);
+    if (!predict(r, &limits, &made, e)) return false;
     outcome o = outcome_of(&r->patient, &r->prepared, &r->plan, &r->moves, in->contact, &made);
-    o.prepare_s = prepare_s;
+    o.stages.prepare = opened;
+    o.stages.judge = judged;
     bool solved = made.solve.outcome == SOLVED, ok;
     json_t *record = NULL;
     ok = write_all(r, &o, &record, e) && output_dir_close(&r->dir, e);

@@ -34,5 +34,9 @@ void prepared_print(const prepared *p)
     printf("left out: %s\n", json_string_value(json_object_get(report, "left_out")));
     printf("skin to tets: mean %.3f mm, largest %.2f mm\n", number(report, "skin_gap_mean_mm"),
            number(report, "skin_gap_max_mm"));
-    if (!p->reused) printf("%.1f s for the bones, %.1f s for the tissue\n", p->bones_s, p->tissue_s);
+    const prepared_stages *t = &p->stages;
+    if (!p->reused)
+        printf("%.1f s to check, %.1f s for the bones, %.1f s for the tissue\n", t->check.wall_s,
+               t->repair.wall_s + t->cuts.wall_s,
+               t->distances.wall_s + t->mesh.wall_s + t->attachment.wall_s + t->fields.wall_s);
 }

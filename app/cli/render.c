@@ -240,7 +240,7 @@ static bool run(run_context *r, err *e)
     bool ok = read_outcome(r->argument[0], &d, e);
     double loaded = clock_s(), cpu = clock_cpu_s();
     ok = ok && draw(r, &d, folder, files, e);
-    if (ok) print(r, files, loaded - r->start_s, clock_s() - loaded, clock_cpu_s() - cpu);
+    if (ok) print(r, files, loaded - r->start.wall_s, clock_s() - loaded, clock_cpu_s() - cpu);
     json_decref(files);
     outcome_record_free(&d.record);
     surface_free(&d.skin_before);

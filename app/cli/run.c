@@ -115,7 +115,7 @@ int verb_run(const verb *v, int argc, char **argv)
     if (v->defaults) v->defaults(r->own);
     argp_parse(&argp, argc, argv, 0, NULL, r);
     r->watch = command_task(&r->common);
-    r->start_s = clock_s();
+    r->start = clock_now();
     bool ok = open_all(r, &e) && v->run(r, &e);
     int status = ok ? r->status : command_fail(&e);
     close_all(r);

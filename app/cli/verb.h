@@ -48,8 +48,8 @@ typedef struct run_context {
 #if GNATHOS_WITH_CGAL
     prepared prepared;
 #endif
-    double start_s; /* clock_s() before anything was opened */
-    int status;     /* exit status where run() does not refuse */
+    clock_span start; /* clock_now() before anything was opened */
+    int status;       /* exit status where run() does not refuse */
 } run_context;
 
 typedef struct verb {

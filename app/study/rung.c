@@ -101,8 +101,8 @@ static void describe(const prepared *p, const prediction *made, study_result *r)
     snprintf(r->text, sizeof r->text, "%s", solve_outcome_text(q->outcome));
     r->nodes = p->tissue.mesh.vertex_count;
     r->tets = p->tissue.mesh.tet_count;
-    r->wall_s = made->solve_s;
-    r->cpu_s = made->cpu_s;
+    r->wall_s = made->solve_span.wall_s;
+    r->cpu_s = made->solve_span.cpu_s;
     r->unknowns = q->unknown_count;
     r->size_mm = cbrt(quality.volume_mm3 / r->tets);
     r->iterations = q->iterations;

@@ -43,7 +43,7 @@ int main(int argc, char **argv)
                 &e);
         wall[i + 1] = clock_s(), cpu[i + 1] = clock_cpu_s();
         printf("%-9s %7.2f s, CPU %7.2f s (solve %.2f), %3d iterations, %3d factorisations, %s\n", name[i],
-               wall[i + 1] - wall[i], cpu[i + 1] - cpu[i], face[i].cpu_s, face[i].solve.iterations,
+               wall[i + 1] - wall[i], cpu[i + 1] - cpu[i], face[i].solve_span.cpu_s, face[i].solve.iterations,
                face[i].solve.factorisations, solve_outcome_text(face[i].solve.outcome));
         assert(face[i].solve.outcome == SOLVED && face[i].scene.left_out_nodes == 0);
     }

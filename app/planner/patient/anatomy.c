@@ -98,15 +98,19 @@ static bool cut(const case_file *c, anatomy *a, err *e)
 bool anatomy_make(const case_file *c, bool skin, const task *watch, anatomy *out, err *e)
 {
     anatomy a = {0};
+    clock_span begin = clock_now();
     bool ok = check_case_passes(c, watch, &a.warnings, e);
+    a.check_span = clock_lap(&begin);
     task_progress(watch, "reading and repairing the surfaces", 0.1);
     ok = ok && landmarks_read(c->landmarks, &a.points, NULL, e) && head_frame_from_landmarks(&a.points, &a.frame, e) &&
          read_bone(c, CASE_SKULL, CASE_UPPER_TEETH, watch, &a.skull, &a.skull_repair, e) &&
          read_bone(c, CASE_MANDIBLE, CASE_LOWER_TEETH, watch, &a.mandible, &a.mandible_repair, e) &&
          (!skin || read_solid(c, CASE_SKIN, watch, &a.skin, &a.closed_skin, &a.skin_repair, e));
+    a.repair_span = clock_lap(&begin);
     if (ok) {
         task_progress(watch, "cutting the bones", 0.2);
         ok = !stopped(watch, e) && cut(c, &a, e) && !stopped(watch, e);
+        a.cut_span = clock_lap(&begin);
     }
     if (!ok) {
         anatomy_free(&a);

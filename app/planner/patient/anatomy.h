@@ -2,6 +2,7 @@
 #pragma once
 #include "app/planner/patient/case_file.h"
 #include "app/planner/store/task.h"
+#include "geometry/clock.h"
 #include "geometry/landmarks.h"
 #include "geometry/osteotomy.h"
 #include "geometry/repair.h"
@@ -16,6 +17,7 @@ typedef struct anatomy {
     repair_report skin_repair, skull_repair, mandible_repair;
     cut_report cuts;
     issue_list warnings; /* of check_case, then of the cuts */
+    clock_span check_span, repair_span, cut_span;
 } anatomy;
 
 /* Checks the case, reads and repairs skull and mandible and cuts them. `skin` false leaves the skin out. Asks watch,

@@ -2,12 +2,14 @@
 #include "geometry/mem.h"
 #include "geometry/rest_gap.h"
 #include "geometry/vec.h"
+#include <math.h>
 #include <stdlib.h>
 
 /* Half a millimetre keeps the relief of crowns: smooth and exact distances differ by 0.04 mm on a cusp of 2 mm radius.
  */
 static const double grid_mm = 0.5, known_mm = 3;
 static const double about_mm = 1; /* of a node: a plan that carries a bone along the tissue asks a few blocks more */
+static const double near_mm = 10; /* farther from bone nothing about a node is within what a field knows */
 
 static distance_field *open_field(const surface *part, const nearest *tree)
 {
@@ -20,18 +22,22 @@ bool bone_fields_make(const segments *s, const tissue *t, bone_fields *out, err 
 {
     segment_trees trees = {0};
     if (!segment_trees_make(s, NULL, &trees, e)) return false;
-    int32_t count = 0;
+    rest_gap gap;
+    rest_gap_make(t, &trees, &gap);
     double *asked = NEW_ARRAY(double, 3 * (size_t)t->mesh.vertex_count);
-    for (int32_t v = 0; v < t->mesh.vertex_count; v++)
-        if (rest_gap_asks(t, v)) vec_copy(t->mesh.xyz + 3 * (size_t)v, asked + 3 * (size_t)count++);
     *out = (bone_fields){0};
     for (int k = 0; k < SEGMENT_COUNT; k++) {
         if (!trees.part[k]) continue;
+        int32_t count = 0;
+        for (int32_t v = 0; v < t->mesh.vertex_count; v++)
+            if (rest_gap_asks(t, v) && fabs(gap.part[k][v]) < near_mm)
+                vec_copy(t->mesh.xyz + 3 * (size_t)v, asked + 3 * (size_t)count++);
         distance_field *f = open_field(&s->part[k], trees.part[k]);
         out->part[k] = distance_field_find(f, asked, count, about_mm);
         distance_field_destroy(&f);
     }
     free(asked);
+    rest_gap_free(&gap);
     segment_trees_free(&trees);
     return true;
 }

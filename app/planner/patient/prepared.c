@@ -3,11 +3,9 @@
 #include "app/planner/patient/pack_arrays.h"
 #include "app/planner/patient/prepared_report.h"
 #include "app/planner/patient/prepared_sound.h"
-#include "geometry/clock.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,24 +100,23 @@ bool prepared_make(const case_file *c, const task *watch, prepared *out, err *e)
     prepared p = {0};
     anatomy a = {0};
     tissue_report r = {0};
-    double start = clock_s();
     if (!anatomy_make(c, true, watch, &a, e)) return false;
-    double cut = clock_s();
     task_progress(watch, "meshing the soft tissue", 0.4);
     surface bones = surface_joined(&a.skull, &a.mandible);
     tissue_input in = {&a.closed_skin, &bones, &a.segments, &a.points, &a.frame};
     bool ok = tissue_make(&in, &c->tissue, &p.tissue, &r, e);
     surface_free(&bones);
     if (ok && task_interrupted(watch)) ok = err_set(e, ERR_INTERRUPTED, "interrupted");
+    clock_span begin = clock_now();
     ok = ok && bone_fields_make(&a.segments, &p.tissue, &p.fields, e);
+    p.stages = (prepared_stages){a.check_span, a.repair_span, a.cut_span,       r.distances,
+                                 r.mesh,       r.attachment,  clock_lap(&begin)};
     if (!ok) tissue_free(&p.tissue);
     if (ok) {
         p.skin_on_tissue = tissue_carry(&p.tissue, a.skin.xyz, a.skin.vertex_count, skin_reach_mm);
         r.skin_gap_mean_mm = p.skin_on_tissue.mean_gap_mm;
         r.skin_gap_max_mm = p.skin_on_tissue.max_gap_mm;
         p.report = prepared_report(c, &a, &r);
-        p.bones_s = cut - start;
-        p.tissue_s = clock_s() - cut;
         p.frame = a.frame;
         p.points = a.points;
         p.skin = a.skin;
@@ -139,7 +136,6 @@ static bool read_kept(const char *path, const char hash[HASH_TEXT_SIZE], prepare
     err unreadable = {0};
     if (!pack_read(path, &f, &unreadable)) return false;
     p->reused = take_pack(&f, hash, p);
-    p->bones_s = p->tissue_s = (double)NAN;
     pack_free(&f);
     if (!p->reused) prepared_free(p);
     return p->reused;

@@ -6,6 +6,11 @@
 #include "geometry/tissue.h"
 #include "geometry/json_file.h"
 
+/* What its stages took; nothing of them is known where it was read from disk. */
+typedef struct prepared_stages {
+    clock_span check, repair, cuts, distances, mesh, attachment, fields;
+} prepared_stages;
+
 typedef struct prepared {
     char hash[HASH_TEXT_SIZE];
     bool reused; /* read from disk */
@@ -17,7 +22,7 @@ typedef struct prepared {
     bone_fields fields;
     embedding skin_on_tissue; /* one point per vertex of skin */
     json_t *report;           /* repair, cuts, mesh quality, attachment: goes into outcome.json as it is */
-    double bones_s, tissue_s; /* wall time of repair and cuts, and of the mesh; NAN where it was read from disk */
+    prepared_stages stages;
 } prepared;
 
 /* Takes it from CASE/prepared (or `cache` if not NULL) where a file of the right hash lies there, else makes

@@ -1,6 +1,7 @@
 #include "app/planner/patient/prepared_report.h"
 #include "app/planner/patient/case_warnings.h"
 #include "app/planner/patient/cut_record.h"
+#include "app/planner/store/stage_record.h"
 
 static const record_row mesh_row[] = {
     ROW(tissue_report, nodes, "nodes", NULL, "nodes of the tissue"),
@@ -88,8 +89,14 @@ static const record_row record_rows[] = {
     ROW(prepared, reused, "reused", NULL, "it was made earlier and taken from disk"),
     {RECORD_AT(prepared, report), .name = "prepared", .table = &prepared_report_table,
      .help = "repair, cuts and mesh in numbers"},
-    ROW(prepared, bones_s, "seconds.bones", "s", "wall time of repair and cuts; null where it was taken from disk"),
-    ROW(prepared, tissue_s, "seconds.tissue", "s", "wall time of the mesh; null where it was taken from disk"),
+    ROW_STAGE(prepared, stages.check, "check",
+              "to look for what is wrong; no stage takes time that was taken from disk"),
+    ROW_STAGE(prepared, stages.repair, "repair", "to read and mend the surfaces and unite bones and teeth"),
+    ROW_STAGE(prepared, stages.cuts, "cuts", "to cut the bones"),
+    ROW_STAGE(prepared, stages.distances, "distances", "to find where the tissue is, between skin and bones"),
+    ROW_STAGE(prepared, stages.mesh, "mesh", "to fill it with tetrahedra"),
+    ROW_STAGE(prepared, stages.attachment, "attachment", "to lay them onto the bones and find what they hang on"),
+    ROW_STAGE(prepared, stages.fields, "fields", "to find distances of the bones where tissue may touch them"),
 };
 const record_table prepared_record_table = {
     .kind = "prepared", .title = "Record of gnathos prepare", RECORD_ROWS(record_rows)};

@@ -194,10 +194,9 @@ bool live_predict(live *l, const plan_moves *moves, const double *start_xyz, con
     options.bones = bones;
     bool ok = prediction_begin(l->patient, l->prepared, l->shapes, moves, &options, watch, out, &setup, e) &&
               get_solver(l, &out->flesh, moves, &setup, e);
-    double wall = clock_s(), cpu = clock_cpu_s();
+    clock_span begin = clock_now();
     ok = ok && solve(l, moves, start_xyz, &setup, &out->solve, e);
-    out->solve_s = clock_s() - wall;
-    out->cpu_s = clock_cpu_s() - cpu;
+    out->solve_span = clock_lap(&begin);
     prediction_setup_free(&setup);
     if (ok) {
         out->scene = report_all(l->prepared, options.scene_mm);

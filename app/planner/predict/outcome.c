@@ -24,7 +24,7 @@ outcome outcome_of(const case_file *c, const prepared *p, const plan_file *plan,
                      .depth = solved ? &made->depth : NULL,
                      .contact = contact,
                      .limits = &made->limits,
-                     .solve_s = made->ready_s + made->solve_s};
+                     .stages = {.ready = made->ready_span, .solve = made->solve_span, .carry = made->shown_span}};
 }
 
 double outcome_relative_residual(const equilibrium *q)

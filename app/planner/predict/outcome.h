@@ -3,6 +3,10 @@
 #include "app/planner/predict/prediction.h"
 #include "app/planner/store/output_dir.h"
 
+typedef struct outcome_stages { /* what each took */
+    clock_span prepare, judge, ready, solve, carry, write, pictures;
+} outcome_stages;
+
 typedef struct outcome { /* borrows everything */
     const case_file *patient;
     const plan_file *plan;
@@ -15,12 +19,12 @@ typedef struct outcome { /* borrows everything */
     const surface *skin;             /* predicted */
     const carried_landmarks *points; /* NULL, as u and skin, unless the solve reached equilibrium */
     const bone_depth *depth;
-    contact_kind contact;                           /* asked for */
-    const judgement *limits;                        /* of bones and tissue */
-    double prepare_s, solve_s, write_s, pictures_s; /* wall time of the stages */
+    contact_kind contact;    /* asked for */
+    const judgement *limits; /* of bones and tissue */
+    outcome_stages stages;
 } outcome;
 
-/* What a prediction with skin, landmarks and depth shows; the other stages' seconds are the caller's to fill in. */
+/* What a prediction with skin, landmarks and depth shows; the other stages' times are the caller's to fill in. */
 outcome outcome_of(const case_file *c, const prepared *p, const plan_file *plan, const plan_moves *moves,
                    contact_kind contact, const prediction *made);
 /* Meshes, moves and landmarks: skin_before.ply, skin_after.ply and .stl, segment_NAME.ply and .stl where the

@@ -5,6 +5,7 @@
 #include "app/planner/predict/ceph_report.h"
 #include "app/planner/predict/outcome_scene.h"
 #include "app/planner/predict/solve_report.h"
+#include "app/planner/store/stage_record.h"
 #include "geometry/vec.h"
 #include <math.h>
 #include <sys/resource.h>
@@ -18,6 +19,7 @@ typedef struct outcome_view {
     const json_t *prepared;
     double young_kpa, poisson, prepare_s, solve_s, ordering_s, assembly_s, factor_s, back_s, cpu_user_s, cpu_system_s,
         peak_mb, error_mm;
+    outcome_stages stages;
     judgement_record limits;
     movement move[SEGMENT_COUNT];
     soft_ratio ratio[SOFT_RATIOS_MAX];
@@ -137,6 +139,13 @@ static const record_row outcome_row[] = {
     ROW(outcome_view, assembly_s, "seconds.assembly", "s", "of that, forces and matrices"),
     ROW(outcome_view, factor_s, "seconds.factorisation", "s", "of that, factors"),
     ROW(outcome_view, back_s, "seconds.back_substitution", "s", "of that, linear systems"),
+    ROW_STAGE(outcome_view, stages.prepare, "prepare", "to prepare the case, or to read what was prepared"),
+    ROW_STAGE(outcome_view, stages.judge, "judge", "to judge the plan by the limits of bones and teeth"),
+    ROW_STAGE(outcome_view, stages.ready, "ready", "to make tissue, contact and bones ready for the plan"),
+    ROW_STAGE(outcome_view, stages.solve, "solve", "to find the equilibrium"),
+    ROW_STAGE(outcome_view, stages.carry, "carry", "to carry skin and landmarks and look for tissue in bone"),
+    ROW_STAGE(outcome_view, stages.write, "write", "to write the meshes"),
+    ROW_STAGE(outcome_view, stages.pictures, "pictures", "to draw the pictures"),
     ROW(outcome_view, cpu_user_s, "seconds.cpu_user", "s", "processor time of the whole process"),
     ROW(outcome_view, cpu_system_s, "seconds.cpu_system", "s", "the same in the system"),
     ROW(outcome_view, peak_mb, "peak_memory_MB", "MB", "most memory that the process held"),
@@ -194,8 +203,9 @@ json_t *outcome_json(const outcome *o)
                       .prepared = o->prepared->report,
                       .young_kpa = o->patient->material.young_kpa,
                       .poisson = o->patient->material.poisson,
-                      .prepare_s = o->prepare_s,
-                      .solve_s = o->solve_s,
+                      .stages = o->stages,
+                      .prepare_s = o->stages.prepare.wall_s,
+                      .solve_s = o->stages.ready.wall_s + o->stages.solve.wall_s,
                       .ordering_s = o->solve->prepare_s,
                       .assembly_s = o->solve->assemble_s,
                       .factor_s = o->solve->factor_s,

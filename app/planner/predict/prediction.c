@@ -44,7 +44,7 @@ bool prediction_begin(const case_file *c, const prepared *p, const bone_shapes *
                       const prediction_options *options, const task *watch, prediction *out, prediction_setup *setup,
                       err *e)
 {
-    double begin = clock_s();
+    clock_span begin = clock_now();
     *out = (prediction){0};
     *setup = (prediction_setup){0};
     plan_tissue *flesh = &out->flesh;
@@ -64,7 +64,7 @@ bool prediction_begin(const case_file *c, const prepared *p, const bone_shapes *
         setup->problem.contact = &setup->touch.setup;
     }
     set_params(options, watch, setup);
-    out->ready_s = clock_s() - begin;
+    out->ready_span = clock_lap(&begin);
     return true;
 }
 
@@ -80,6 +80,7 @@ bool prediction_end(const case_file *c, const prepared *p, const bone_shapes *sh
     const equilibrium *q = &io->solve;
     size_t n = 3 * (size_t)q->node_count;
     bool solved = q->outcome == SOLVED;
+    clock_span begin = clock_now();
     if (q->outcome == STOPPED_INTERRUPTED) return err_set(e, ERR_INTERRUPTED, "interrupted");
     if (solved) {
         io->u = NEW_ARRAY(double, n);
@@ -93,6 +94,7 @@ bool prediction_end(const case_file *c, const prepared *p, const bone_shapes *sh
     if (solved && options->depth) io->depth = bone_depth_measure(p, shapes, moves, &io->flesh.attach, q->xyz);
     io->limits = options->bones ? *options->bones : (judgement){.reason = -1};
     judge_tissue(c, p, q, io->points.carrier ? &io->points : NULL, &io->limits);
+    io->shown_span = clock_lap(&begin);
     return true;
 }
 
@@ -102,10 +104,9 @@ static bool make(const case_file *c, const prepared *p, const bone_shapes *shape
 {
     prediction_setup setup;
     bool ok = prediction_begin(c, p, shapes, moves, options, watch, out, &setup, e);
-    double wall = clock_s(), cpu = clock_cpu_s();
+    clock_span begin = clock_now();
     ok = ok && scene_solve(&setup.problem, &setup.scene, &setup.params, &out->solve, &out->scene, e);
-    out->solve_s = clock_s() - wall;
-    out->cpu_s = clock_cpu_s() - cpu;
+    out->solve_span = clock_lap(&begin);
     prediction_setup_free(&setup);
     ok = ok && prediction_end(c, p, shapes, moves, options, out, e);
     if (!ok) prediction_free(out);
@@ -117,11 +118,11 @@ bool prediction_make(const case_file *c, const prepared *p, const bone_shapes *s
 {
     if (shapes) return make(c, p, shapes, moves, options, watch, out, e);
     bone_shapes own;
-    double begin = clock_s();
+    clock_span begin = clock_now();
     if (!bone_shapes_make(p, &own, e)) return false;
-    double made_s = clock_s() - begin;
+    clock_span shapes_span = clock_lap(&begin);
     bool ok = make(c, p, &own, moves, options, watch, out, e);
-    if (ok) out->ready_s += made_s;
+    if (ok) out->ready_span = clock_sum(out->ready_span, shapes_span);
     bone_shapes_free(&own);
     return ok;
 }

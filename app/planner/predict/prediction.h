@@ -42,8 +42,8 @@ typedef struct prediction {
     surface skin;             /* no vertices where not wanted */
     carried_landmarks points; /* no landmarks where not wanted */
     bone_depth depth;
-    judgement limits;               /* bones as given, and tissue */
-    double ready_s, solve_s, cpu_s; /* wall: until the solve, of the solve; CPU of the solve */
+    judgement limits;                              /* bones as given, and tissue */
+    clock_span ready_span, solve_span, shown_span; /* until the solve, the solve, what is made of it */
 } prediction;
 
 /* shapes: bone_shapes of p, or NULL: made here. A solve that fails is not a

@@ -88,12 +88,15 @@ bool tissue_make(const tissue_input *in, const tissue_params *p, tissue *out, ti
     tissue_report r = {0};
     lip_pairs lips = {0};
     label_mesher_params mp = label_mesher_params_default();
+    clock_span begin = clock_now();
     bool ok = tissue_domain_make(in, p, &d, e);
+    r.distances = clock_lap(&begin);
     if (ok) {
         memcpy(mp.low, d.low, sizeof mp.low);
         memcpy(mp.high, d.high, sizeof mp.high);
         mp.facet_distance_mm = 0.15 * p->element_mm;
         ok = label_mesher_run(tissue_domain_label, tissue_domain_size, &d, &mp, &t.mesh, e);
+        r.mesh = clock_lap(&begin);
     }
     if (ok) {
         double dropped = keep_largest_piece(&t.mesh);
@@ -115,6 +118,7 @@ bool tissue_make(const tissue_input *in, const tissue_params *p, tissue *out, ti
         tissue_free(&t);
         return false;
     }
+    r.attachment = clock_lap(&begin);
     r.quality = tetmesh_measure(&t.mesh);
     r.nodes = t.mesh.vertex_count;
     r.tets = t.mesh.tet_count;
