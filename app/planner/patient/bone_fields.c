@@ -8,8 +8,8 @@
 /* Half a millimetre keeps the relief of crowns: smooth and exact distances differ by 0.04 mm on a cusp of 2 mm radius.
  */
 static const double grid_mm = 0.5, known_mm = 3;
-static const double about_mm = 1; /* of a node: a plan that carries a bone along the tissue asks a few blocks more */
-static const double near_mm = 10; /* farther from bone nothing about a node is within what a field knows */
+static const double about_mm = 0.25; /* of a node: a plan that carries a bone along the tissue asks a few blocks more */
+static const double near_mm = 10;    /* farther from bone nothing about a node is within what a field knows */
 
 static distance_field *open_field(const surface *part, const nearest *tree)
 {

@@ -45,11 +45,12 @@ void distance_field_destroy(distance_field **f)
     *f = NULL;
 }
 
-/* The sign changes only where the surface passes: a sample takes it from a neighbour that is farther from the
- * surface than from the sample; the others are asked. */
+/* The way to a neighbour passes the surface only if both are together no farther from it than the way is long: else a
+ * sample takes the side of its neighbour; the others are asked. */
 static float *find_block(const distance_field *f, const int32_t at[3])
 {
     static const int back[3] = {1, SIDE, SIDE * SIDE};
+    const float apart = (float)(f->step * (1 + 1e-5));
     float *value = NEW_ARRAY(float, BLOCK);
     double place[BLOCK][3];
     int32_t triangle[BLOCK];
@@ -57,10 +58,7 @@ static float *find_block(const distance_field *f, const int32_t at[3])
         int k[3] = {s % SIDE, s / SIDE % SIDE, s / (SIDE * SIDE)};
         double x[3];
         int known = -1;
-        for (int c = 0; c < 3; c++) {
-            x[c] = f->low[c] + f->step * (SIDE * at[c] + k[c]);
-            if (k[c] > 0 && fabsf(value[s - back[c]]) > (float)f->step) known = s - back[c];
-        }
+        for (int c = 0; c < 3; c++) x[c] = f->low[c] + f->step * (SIDE * at[c] + k[c]);
         int beside = s - back[k[0] > 0 ? 0 : k[1] > 0 ? 1 : 2];
         if (s > 0) {
             vec_copy(place[beside], place[s]);
@@ -68,6 +66,8 @@ static float *find_block(const distance_field *f, const int32_t at[3])
             value[s] = (float)nearest_point_onward(f->of, x, place[s], &triangle[s]);
         } else
             value[s] = (float)nearest_point(f->of, x, place[s], &triangle[s]);
+        for (int c = 0; c < 3; c++)
+            if (k[c] > 0 && fabsf(value[s - back[c]]) + value[s] > apart) known = s - back[c];
         if (known >= 0 ? value[known] < 0 : nearest_inside(f->of, x)) value[s] = -value[s];
     }
     return value;
