@@ -11,7 +11,7 @@
 typedef struct result {
     int64_t unknowns;
     int32_t nodes;
-    int iterations, cg, outcome;
+    int iterations, cg, factorisations, outcome;
     spent took;
 } result;
 
@@ -31,7 +31,8 @@ static result run(int cells, double poisson, int threads)
     equilibrium q;
     spent begin = time_now();
     if (!equilibrium_solve(&p, &params, &q, &e)) give_up(&e);
-    return (result){q.unknown_count, m.vertex_count, q.iterations, q.cg_iterations, (int)q.outcome, time_since(begin)};
+    return (result){q.unknown_count,  m.vertex_count, q.iterations,     q.cg_iterations,
+                    q.factorisations, (int)q.outcome, time_since(begin)};
 }
 
 int main(int argc, char **argv)
@@ -40,7 +41,7 @@ int main(int argc, char **argv)
     int threads = argc > 1 ? atoi(argv[1]) : 1, most = argc > 2 ? atoi(argv[2]) : 22;
     if (threads < 1) return 2;
     parallel_set_threads(threads);
-    puts("nodes,unknowns,poisson,threads,outcome,iterations,cg,wall_s,cpu_s,peak_mb,wall_exponent,cpu_"
+    puts("nodes,unknowns,poisson,threads,outcome,iterations,cg,factorisations,wall_s,cpu_s,peak_mb,wall_exponent,cpu_"
          "exponent");
     for (int n = 0; n < 2; n++) {
         result first = {0};
@@ -61,9 +62,9 @@ int main(int argc, char **argv)
             if (wait4(child, &status, 0, &used) != child || !ok) return 1;
             if (k == 0) first = r;
             double more = log((double)r.unknowns / (double)first.unknowns);
-            printf("%d,%lld,%.2f,%d,%s,%d,%d,%.2f,%.2f,%.0f,%.2f,%.2f\n", r.nodes, (long long)r.unknowns,
+            printf("%d,%lld,%.2f,%d,%s,%d,%d,%d,%.2f,%.2f,%.0f,%.2f,%.2f\n", r.nodes, (long long)r.unknowns,
                    n ? 0.49 : 0.45, threads, solve_outcome_text((solve_outcome)r.outcome), r.iterations, r.cg,
-                   r.took.wall_s, r.took.cpu_s, (double)used.ru_maxrss / 1024,
+                   r.factorisations, r.took.wall_s, r.took.cpu_s, (double)used.ru_maxrss / 1024,
                    k ? log(r.took.wall_s / first.took.wall_s) / more : 0,
                    k ? log(r.took.cpu_s / first.took.cpu_s) / more : 0);
         }

@@ -4,6 +4,7 @@
 #include "geometry/mem.h"
 #include "geometry/clock.h"
 #include "sim/src/solve/descent.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -33,7 +34,7 @@ static inline void give_up(const err *e)
 }
 
 /* blas_threads: the yardstick may use what the solver may use. */
-static inline spent one_linear_solve(const equilibrium_problem *p, int blas_threads)
+static inline spent linear_solve_once(const equilibrium_problem *p, int blas_threads)
 {
     err e = {0};
     solver *t = NULL;
@@ -52,4 +53,17 @@ static inline spent one_linear_solve(const equilibrium_problem *p, int blas_thre
     free(b);
     solver_destroy(&t);
     return out;
+}
+
+/* The least of three, after one that touches the memory first. */
+static inline spent one_linear_solve(const equilibrium_problem *p, int blas_threads)
+{
+    (void)linear_solve_once(p, blas_threads);
+    spent least = linear_solve_once(p, blas_threads);
+    for (int k = 0; k < 2; k++) {
+        spent one = linear_solve_once(p, blas_threads);
+        least.wall_s = fmin(least.wall_s, one.wall_s);
+        least.cpu_s = fmin(least.cpu_s, one.cpu_s);
+    }
+    return least;
 }
