@@ -205,7 +205,7 @@ static void refine_row(const surface part[CASE_SURFACE_COUNT], const point_rule 
         int side;
         bool middle;
         const point_rule *r = point_rule_find(now->point[i].label, &side);
-        case_surface on = surface_of(now->point[i].label, &middle);
+        case_surface on = r ? r->on : surface_of(now->point[i].label, &middle);
         if (r != row || (on == CASE_SURFACE_COUNT && !r)) continue;
         vec_copy(now->point[i].xyz, out[i].at);
         if (r && r->occlusal) to_occlusion(now, out[i].at);
