@@ -60,8 +60,8 @@ static void distance_to_a_sphere_is_off_by_its_bend(void **state)
 static void what_was_kept_is_what_is_found(void **state)
 {
     (void)state;
-    nearest *tree;
-    distance_field *asked = make(&tree, 0.5), *finder = make(&tree, 0.5), *lent = make(&tree, 0.5);
+    nearest *tree[3];
+    distance_field *asked = make(&tree[0], 0.5), *finder = make(&tree[1], 0.5), *lent = make(&tree[2], 0.5);
     const double place[6] = {3, -2, 7 + radius, (double)NAN, 0, 0};
     distance_samples kept = distance_field_find(finder, place, 2, 2);
     distance_field_destroy(&finder);
@@ -90,7 +90,7 @@ static void what_was_kept_is_what_is_found(void **state)
     distance_field_destroy(&asked);
     distance_field_destroy(&lent);
     distance_samples_free(&kept);
-    nearest_destroy(&tree);
+    for (int i = 0; i < 3; i++) nearest_destroy(&tree[i]);
 }
 
 static void derivatives_are_exact(void **state)
