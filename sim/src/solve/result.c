@@ -84,17 +84,16 @@ static void count_costs(const solver *t, const linear_stats *before, equilibrium
 }
 
 /* Where most of the force is left. */
-static int32_t find_stuck(const solver *t, const double *force)
+static int32_t find_stuck(const boundary *b, const double *g)
 {
     int32_t worst = -1;
     double most = 0;
-    for (int32_t v = 0; v < t->b.node_count; v++) {
+    for (int32_t v = 0; v < b->node_count; v++) {
         double square = 0;
-        for (size_t k = 0; k < 3; k++)
-            if (t->b.unknown[3 * (size_t)v + k] >= 0) {
-                double f = vec_dot(force + 3 * (size_t)v, t->b.basis + 9 * (size_t)v + 3 * k);
-                square += f * f;
-            }
+        for (size_t k = 0; k < 3; k++) { /* of unknowns, not of nodes: a pair presses its nodes at equilibrium too */
+            int32_t unknown = b->unknown[3 * (size_t)v + k];
+            if (unknown >= 0) square += g[unknown] * g[unknown];
+        }
         if (square > most) {
             most = square;
             worst = v;
@@ -114,7 +113,7 @@ void result_fill(descent *d, solve_outcome outcome, const linear_stats *before)
     q->extremes = assembly_extremes(&t->a, q->xyz, true);
     q->energy_uj = term_energy(&t->terms, true, d->here.x, d->here.force);
     if (t->touch) report_contact(d, q);
-    q->stuck_node = outcome == SOLVED ? -1 : find_stuck(t, d->here.force);
+    q->stuck_node = outcome == SOLVED ? -1 : find_stuck(&t->b, d->here.g);
     find_reactions(t, d->here.force, q);
     count_costs(t, before, q);
 }
