@@ -12,12 +12,7 @@
 
 static const double position_step_mm = 0.005, displacement_step_mm = 0.001;
 
-static const landmark_row *known(const char *label)
-{
-    for (int i = 0; label && i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return &landmark_rows[i];
-    return NULL;
-}
+static const landmark_row *known(const char *label) { return label ? landmark_row_find(label) : NULL; }
 
 bool report_record_check(const json_file *f, err *e)
 {

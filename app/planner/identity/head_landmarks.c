@@ -65,9 +65,8 @@ static double doubt_of(const head_landmark *l, const point_place *p)
 
 static case_surface surface_of(const char *label)
 {
-    for (int i = 0; i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return landmark_rows[i].on;
-    return CASE_SURFACE_COUNT;
+    const landmark_row *row = landmark_row_find(label);
+    return row ? row->on : CASE_SURFACE_COUNT;
 }
 
 /* An open mouth has two points between the lips, a closed one has one. */

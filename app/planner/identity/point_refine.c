@@ -138,9 +138,8 @@ static case_surface surface_of(const char *label, bool *middle)
 {
     size_t n = strlen(label);
     *middle = n < 3 || label[n - 2] != '_' || (label[n - 1] != 'L' && label[n - 1] != 'R');
-    for (int i = 0; i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return landmark_rows[i].on;
-    return CASE_SURFACE_COUNT;
+    const landmark_row *row = landmark_row_find(label);
+    return row ? row->on : CASE_SURFACE_COUNT;
 }
 
 /* x = plane[0] + plane[1] y + plane[2] z, least squares of what should lie in the middle of a body: points of the

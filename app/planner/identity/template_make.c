@@ -11,13 +11,6 @@
 
 static const double on_surface_mm = 0.3; /* a landmark nearer to its part than this hangs on a triangle */
 
-static const landmark_row *row_of(const char *label)
-{
-    for (int i = 0; i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return &landmark_rows[i];
-    return NULL;
-}
-
 /* Of p, which lies in the triangle. */
 static void barycentric(const surface *s, int32_t triangle, const double p[3], double weight[3])
 {
@@ -38,7 +31,7 @@ static void barycentric(const surface *s, int32_t triangle, const double p[3], d
  * these of the bones and teeth alone. */
 static head_point hang(const landmark *l, const surface part[CASE_SURFACE_COUNT], nearest *const tree[])
 {
-    const landmark_row *row = row_of(l->label);
+    const landmark_row *row = landmark_row_find(l->label);
     bool inside = row && row->on == CASE_SURFACE_COUNT;
     head_point p = {.part = -1, .triangle = -1};
     snprintf(p.label, sizeof p.label, "%s", l->label);

@@ -76,10 +76,7 @@ static void check_set(const case_file *c, const landmarks *l, issue_list *issues
     char unknown[600] = "";
     int count = 0;
     for (int32_t i = 0; i < l->count; i++) {
-        bool known = false;
-        for (int k = 0; k < landmark_row_count && !known; k++)
-            known = !strcmp(landmark_rows[k].label, l->point[i].label);
-        if (known) continue;
+        if (landmark_row_find(l->point[i].label)) continue;
         size_t used = strlen(unknown);
         snprintf(unknown + used, sizeof unknown - used, "%s%s", count++ ? ", " : "", l->point[i].label);
     }

@@ -42,9 +42,8 @@ static int group_of(const char *label)
 {
     static const int group[] = {[CASE_SKULL] = 0,       [CASE_UPPER_TEETH] = 0,    [CASE_MANDIBLE] = 1,
                                 [CASE_LOWER_TEETH] = 1, [CASE_SURFACE_COUNT] = -1, [CASE_SKIN] = 2};
-    for (int i = 0; i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return group[landmark_rows[i].on];
-    return -1;
+    const landmark_row *row = landmark_row_find(label);
+    return row ? group[row->on] : -1;
 }
 
 static int find_known(const landmarks *l, int group, known out[KNOWN_MOST])

@@ -1,4 +1,5 @@
 #include "app/planner/patient/landmark_needs.h"
+#include <string.h>
 
 /* A landmark of the left and the same of the right, in two rows that follow each other. */
 #define BOTH(label_, need_, on_, help_, lost_)                                                                         \
@@ -98,6 +99,13 @@ const landmark_row landmark_rows[] = {
 };
 
 const int landmark_row_count = sizeof landmark_rows / sizeof landmark_rows[0];
+
+const landmark_row *landmark_row_find(const char *label)
+{
+    for (int i = 0; i < landmark_row_count; i++)
+        if (!strcmp(landmark_rows[i].label, label)) return &landmark_rows[i];
+    return NULL;
+}
 
 bool landmark_is_needed(const landmark_row *row, const case_file *c)
 {

@@ -21,5 +21,6 @@ typedef struct landmark_row {
 
 extern const landmark_row landmark_rows[];
 extern const int landmark_row_count;
+const landmark_row *landmark_row_find(const char *label); /* NULL: a label of the user's own */
 
 bool landmark_is_needed(const landmark_row *row, const case_file *c);

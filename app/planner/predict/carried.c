@@ -7,13 +7,6 @@
 
 static const double reach_mm = 3; /* of a landmark from the surface it lies on */
 
-static const landmark_row *row_of(const char *label)
-{
-    for (int i = 0; i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return &landmark_rows[i];
-    return NULL;
-}
-
 static int nearest_part(const segment_trees *trees, const double p[3], double *gap)
 {
     int best = CARRIED_BY_NONE;
@@ -36,7 +29,7 @@ landmark_carriers landmark_carriers_find(const prepared *p, const segment_trees 
     for (int32_t i = 0; i < count; i++) vec_copy(p->points.point[i].xyz, xyz + 3 * (size_t)i);
     c.in_tissue = tissue_carry(&p->tissue, xyz, count, reach_mm);
     for (int32_t i = 0; i < count; i++) {
-        const landmark_row *row = row_of(p->points.point[i].label);
+        const landmark_row *row = landmark_row_find(p->points.point[i].label);
         double gap;
         int part = nearest_part(trees, p->points.point[i].xyz, &gap);
         bool inside_head = row && row->on == CASE_SURFACE_COUNT;

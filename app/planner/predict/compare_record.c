@@ -29,9 +29,8 @@ bool face_compare_landmark(const face_compare *c, const landmarks *predicted, in
 
 bool face_compare_on_skin(const char *label)
 {
-    for (int i = 0; i < landmark_row_count; i++)
-        if (!strcmp(landmark_rows[i].label, label)) return landmark_rows[i].on == CASE_SKIN;
-    return strchr(label, '\'') != NULL; /* the user's own */
+    const landmark_row *row = landmark_row_find(label);
+    return row ? row->on == CASE_SKIN : strchr(label, '\'') != NULL;
 }
 
 bool face_compare_beats(const face_compare *c, int row)
