@@ -24,6 +24,12 @@ typedef struct descent {
     load_state load;
 } descent;
 
+/* No other load, and no other phase of this one, can mend it. */
+static inline bool outcome_is_final(solve_outcome outcome)
+{
+    return outcome == STOPPED_INTERRUPTED || outcome == STOPPED_MAX_WORK;
+}
+
 void descent_make(descent *d, solver *t, const solve_params *params, equilibrium *out);
 void descent_free(descent *d);
 

@@ -79,7 +79,7 @@ static bool run_phase_a(descent *d, err *e)
     l->tolerance_mn = fmax(tolerance, p->free_rel_tol * d->out->reference_mn);
     l->settled_mm = HUGE_VAL;
     if (!iterate(d, p->free_iterations, &outcome, e)) return false;
-    if (outcome == STOPPED_INTERRUPTED || outcome == STOPPED_MAX_WORK) end(l, outcome);
+    if (outcome_is_final(outcome)) end(l, outcome);
     l->tolerance_mn = tolerance;
     l->settled_mm = settled;
     return true;

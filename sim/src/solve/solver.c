@@ -136,9 +136,6 @@ static load_task task_of(const descent *d, const load_path *p)
                        .free_first = touches && load_path_first_touch(p)};
 }
 
-/* No other load can mend it. */
-static bool is_final(solve_outcome outcome) { return outcome == STOPPED_INTERRUPTED || outcome == STOPPED_MAX_WORK; }
-
 /* Load by load to the whole motion, or as far as it goes. */
 static bool follow(descent *d, load_path *p, const rigid motion[SEGMENT_COUNT], const double *start_xyz,
                    solve_outcome *outcome, err *e)
@@ -156,7 +153,7 @@ static bool follow(descent *d, load_path *p, const rigid motion[SEGMENT_COUNT], 
         load_task task = task_of(d, p);
         d->out->loads++;
         ok = load_run(d, &task, start, outcome, e);
-        if (!ok || is_final(*outcome)) break;
+        if (!ok || outcome_is_final(*outcome)) break;
         bool went_on = p->phase == PATH_GUESS && t->goes_on;
         load_path_go_on(p, *outcome == SOLVED);
         if (went_on && p->phase != PATH_REACHED) contact_restart(t->touch);
