@@ -1,24 +1,19 @@
 /* A fit written and read again: the template's own shape, moved. Needs the template of heads. */
 #include "tests/check.h"
+#include "tests/planner/with_template.h"
 #include "app/planner/identity/fit_file.h"
 #include "app/planner/identity/fit_record.h"
-#include "app/planner/identity/template_get.h"
 #include "app/planner/store/pack_file.h"
 #include "geometry/mem.h"
 #include <string.h>
 #include <unistd.h>
 
-static head_template t;
 static head_fit f;
 
 static int open_it(void **state)
 {
-    (void)state;
     err e = {0};
-    if (!head_template_get(NULL, &t, NULL, &e)) {
-        print_error("%s\n", e.text);
-        return -1;
-    }
+    if (open_template(state)) return -1;
     f = (head_fit){.shape = head_shape_of(&t), .min_j = 0.5, .iterations = 7, .factorisations = 3, .total_s = 12.5};
     f.place = (head_place){.motion = rigid_translation((double[]){1, 2, 3}), .scale = 1.02, .by_landmarks = true};
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
@@ -39,9 +34,8 @@ static int open_it(void **state)
 
 static int close_it(void **state)
 {
-    (void)state;
     head_fit_free(&f);
-    head_template_free(&t);
+    close_template(state);
     return unlink("fit.pack");
 }
 

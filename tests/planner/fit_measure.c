@@ -1,26 +1,10 @@
 /* Distances between a scan and the template that lies on it but for one cheek, and what of it is guessed and missed. */
 #include "tests/check.h"
+#include "tests/planner/with_template.h"
 #include "app/planner/identity/fit_record.h"
 #include "app/planner/identity/fit_state.h"
-#include "app/planner/identity/template_get.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
-
-static head_template t;
-
-static int open_it(void **state)
-{
-    (void)state;
-    err e = {0};
-    return head_template_get(NULL, &t, NULL, &e) ? 0 : -1;
-}
-
-static int close_it(void **state)
-{
-    (void)state;
-    head_template_free(&t);
-    return 0;
-}
 
 static const double swollen_mm = 8;
 
@@ -112,5 +96,5 @@ int main(void)
         cmocka_unit_test(a_swollen_cheek_is_missed_and_a_neck_is_guessed),
         cmocka_unit_test(a_cavity_of_the_scan_is_not_what_the_template_stands_for),
     };
-    return cmocka_run_group_tests(tests, open_it, close_it);
+    return cmocka_run_group_tests(tests, open_template, close_template);
 }

@@ -1,28 +1,12 @@
 /* The template on heads whose shape is known: itself moved, bent, cut and roughened. */
 #include "tests/check.h"
+#include "tests/planner/with_template.h"
 #include "app/planner/identity/head_fit.h"
-#include "app/planner/identity/template_get.h"
 #include "geometry/distance_tree.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include "sim/target_surface.h"
 #include <string.h>
-
-static head_template t;
-
-static int open_it(void **state)
-{
-    (void)state;
-    err e = {0};
-    return head_template_get(NULL, &t, NULL, &e) ? 0 : -1;
-}
-
-static int close_it(void **state)
-{
-    (void)state;
-    head_template_free(&t);
-    return 0;
-}
 
 static double uniform(uint64_t *seed)
 {
@@ -209,5 +193,5 @@ int main(void)
         cmocka_unit_test(a_bent_head_is_recovered),
         cmocka_unit_test(a_cut_and_noisy_scan_is_fitted_where_it_is),
     };
-    return cmocka_run_group_tests(tests, open_it, close_it);
+    return cmocka_run_group_tests(tests, open_template, close_template);
 }

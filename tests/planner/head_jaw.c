@@ -1,29 +1,19 @@
 /* The mouth of the template opened and closed again. */
 #include "tests/check.h"
+#include "tests/planner/with_template.h"
 #include "app/planner/identity/head_jaw.h"
 #include "app/planner/identity/head_sound.h"
-#include "app/planner/identity/template_get.h"
 #include "geometry/mem.h"
 #include "geometry/rig.h"
 #include "geometry/vec.h"
 #include <string.h>
 
-static head_template t;
 static head_place as_it_is = {.scale = 1};
 
 static int open_it(void **state)
 {
-    (void)state;
-    err e = {0};
     as_it_is.motion = rigid_identity();
-    return head_template_get(NULL, &t, NULL, &e) ? 0 : -1;
-}
-
-static int close_it(void **state)
-{
-    (void)state;
-    head_template_free(&t);
-    return 0;
+    return open_template(state);
 }
 
 static const double *point(const char *label)
@@ -110,5 +100,5 @@ int main(void)
         cmocka_unit_test(an_opened_mouth_is_closed_again),
         cmocka_unit_test(what_is_closed_stays_as_it_is),
     };
-    return cmocka_run_group_tests(tests, open_it, close_it);
+    return cmocka_run_group_tests(tests, open_it, close_template);
 }

@@ -1,13 +1,12 @@
 /* Heads of which only a part is known, made whole by a model of bent templates. */
 #include "tests/check.h"
+#include "tests/planner/with_template.h"
 #include "app/planner/identity/head_likeliest.h"
-#include "app/planner/identity/template_get.h"
 #include "geometry/mem.h"
 #include "geometry/vec.h"
 #include <string.h>
 
 enum { HEADS = 7, WAYS = 4 };
-static head_template t;
 static head_model model;
 
 /* Wider, longer, a deeper jaw, a fuller face: smooth and small enough that every head is one. */
@@ -33,11 +32,10 @@ static head_shape bent(const double how[WAYS])
 
 static int open_it(void **state)
 {
-    (void)state;
     static const double how[HEADS][WAYS] = {{1, 0, 0, 0},  {-1, 1, 0, 0}, {0, -1, 1, 0},    {0, 0, -1, 1},
                                             {1, 0, 0, -1}, {0, 1, 1, 0},  {-1, -1, -1, 0.5}};
     err e = {0};
-    if (!head_template_get(NULL, &t, NULL, &e)) return -1;
+    if (open_template(state)) return -1;
     head_layout l = head_layout_of(&t);
     double *phi[HEADS];
     const char *name[HEADS];
@@ -55,10 +53,8 @@ static int open_it(void **state)
 
 static int close_it(void **state)
 {
-    (void)state;
     head_model_free(&model);
-    head_template_free(&t);
-    return 0;
+    return close_template(state);
 }
 
 static const double truth[WAYS] = {0.6, -0.5, 0.8, -0.4};
