@@ -2,7 +2,7 @@
 #include "app/planner/identity/fit_file.h"
 #include "app/planner/identity/head_case.h"
 #include "geometry/mem.h"
-#include "geometry/vec.h"
+#include "geometry/tet_volume.h"
 #if GNATHOS_WITH_RENDER
 #include "render/colormap.h"
 #endif
@@ -60,12 +60,6 @@ static bool write_scan(const fit_record *r, case_surface part, const output_dir 
     return ok;
 }
 
-static double six_volume(const double *xyz, const int32_t *tet)
-{
-    return vec_six_volume(xyz + 3 * (size_t)tet[0], xyz + 3 * (size_t)tet[1], xyz + 3 * (size_t)tet[2],
-                          xyz + 3 * (size_t)tet[3]);
-}
-
 /* The smallest J of the tets around each node. */
 static double *node_j(const fit_record *r)
 {
@@ -74,7 +68,7 @@ static double *node_j(const fit_record *r)
     for (int32_t v = 0; v < m->vertex_count; v++) j[v] = HUGE_VAL;
     for (size_t t = 0; t < (size_t)m->tet_count; t++) {
         const int32_t *tet = m->tet + 4 * t;
-        double here = six_volume(r->fit->shape.neutral, tet) / six_volume(m->xyz, tet) / size;
+        double here = tet_j(m, r->fit->shape.neutral, (int32_t)t) / size;
         for (int k = 0; k < 4; k++) j[tet[k]] = fmin(j[tet[k]], here);
     }
     return j;

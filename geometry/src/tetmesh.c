@@ -1,5 +1,6 @@
 #include "geometry/tetmesh.h"
 #include "geometry/mem.h"
+#include "geometry/tet_volume.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 
@@ -36,10 +37,7 @@ static const double *corner(const tetmesh *m, int32_t t, int k)
     return m->xyz + 3 * (size_t)m->tet[4 * (size_t)t + k];
 }
 
-static double six_volume(const tetmesh *m, int32_t t)
-{
-    return vec_six_volume(corner(m, t, 0), corner(m, t, 1), corner(m, t, 2), corner(m, t, 3));
-}
+static double six_volume(const tetmesh *m, int32_t t) { return tet_six_volume(m->xyz, m->tet + 4 * (size_t)t); }
 
 bool tetmesh_check(const tetmesh *m, err *e)
 {

@@ -114,21 +114,7 @@ void fit_measure_part(const fit_state *f, const head_scan *s, case_surface p, he
 
 void head_fit_measure_tets(const head_template *t, head_fit *f)
 {
-    const tetmesh *m = &t->tissue.mesh;
-    double size = pow(f->place.scale, 3);
-    const double *pairs[2][2] = {{t->rest, f->shape.rest}, {m->xyz, f->shape.neutral}};
-    f->min_j = HUGE_VAL;
-    f->inverted_tets = 0;
-    for (int k = 0; k < 2; k++)
-        for (size_t i = 0; i < (size_t)m->tet_count; i++) {
-            const double *p[2][4];
-            for (int side = 0; side < 2; side++)
-                for (size_t c = 0; c < 4; c++) p[side][c] = pairs[k][side] + 3 * (size_t)m->tet[4 * i + c];
-            double before = vec_six_volume(p[0][0], p[0][1], p[0][2], p[0][3]),
-                   after = vec_six_volume(p[1][0], p[1][1], p[1][2], p[1][3]);
-            f->min_j = fmin(f->min_j, after / before / size);
-            f->inverted_tets += !(after > 0);
-        }
+    f->min_j = head_min_j(t, &f->shape, &f->inverted_tets) / pow(f->place.scale, 3);
 }
 
 double fit_shown_mm(const head_fit *f, case_surface part, size_t vertex)

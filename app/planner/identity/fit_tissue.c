@@ -1,6 +1,7 @@
 #include "app/planner/identity/fit_state.h"
 #include "geometry/distance_tree.h"
 #include "geometry/mem.h"
+#include "geometry/tet_volume.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -175,9 +176,7 @@ static void soften_rest(const tetmesh *m, const double *nodes, double *rest)
         some = 0;
         memset(half, 0, (size_t)m->vertex_count);
         for (size_t i = 0; i < (size_t)m->tet_count; i++) {
-            const double *x[4];
-            for (size_t c = 0; c < 4; c++) x[c] = rest + 3 * (size_t)m->tet[4 * i + c];
-            if (vec_six_volume(x[0], x[1], x[2], x[3]) > 0) continue;
+            if (tet_six_volume(rest, m->tet + 4 * i) > 0) continue;
             for (size_t c = 0; c < 4; c++) half[m->tet[4 * i + c]] = 1;
             some = 1;
         }

@@ -1,5 +1,6 @@
 #include "app/planner/identity/head.h"
 #include "geometry/mem.h"
+#include "geometry/tet_volume.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,6 +39,16 @@ void head_shape_free(head_shape *s)
     free(s->rest);
     free(s->neutral);
     *s = (head_shape){0};
+}
+
+double head_min_j(const head_template *t, const head_shape *s, int32_t *inverted)
+{
+    tetmesh rest = t->tissue.mesh;
+    int32_t at_rest, at_neutral;
+    rest.xyz = t->rest;
+    double j = fmin(tets_min_j(&rest, s->rest, &at_rest), tets_min_j(&t->tissue.mesh, s->neutral, &at_neutral));
+    *inverted = at_rest + at_neutral;
+    return j;
 }
 
 surface head_part(const head_template *t, const head_shape *s, case_surface part)

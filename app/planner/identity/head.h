@@ -38,6 +38,9 @@ typedef struct head_shape {
 void head_template_free(head_template *t);
 head_shape head_shape_of(const head_template *t); /* the template's own; the caller frees */
 void head_shape_free(head_shape *s);
+/* The smallest J of a tet in this shape against the template, at rest and at neutral; *inverted: how many are inside
+ * out. */
+double head_min_j(const head_template *t, const head_shape *s, int32_t *inverted);
 /* The surface of a part in this shape; the caller frees. */
 surface head_part(const head_template *t, const head_shape *s, case_surface part);
 /* Every landmark of the template on this shape; the caller frees. */

@@ -3,6 +3,7 @@
 #include "geometry/distance_tree.h"
 #include "geometry/mem.h"
 #include "geometry/similarity.h"
+#include "geometry/tet_volume.h"
 #include "geometry/vec.h"
 #include "sim/equilibrium.h"
 #include <stdlib.h>
@@ -53,11 +54,6 @@ static targets lips_together(const head_template *t, const double *x)
     return out;
 }
 
-static double six_volume(const double *x, const int32_t *v)
-{
-    return vec_six_volume(x + 3 * (size_t)v[0], x + 3 * (size_t)v[1], x + 3 * (size_t)v[2], x + 3 * (size_t)v[3]);
-}
-
 /* Tets of less than least_j of their volume let go of the bones, and of the other lip; returns how many are. */
 static int32_t let_go(const tetmesh *m, const double *x, double least_j, attach_map *a, targets *lips)
 {
@@ -65,7 +61,7 @@ static int32_t let_go(const tetmesh *m, const double *x, double least_j, attach_
     uint8_t *thin = NEW_ARRAY(uint8_t, m->vertex_count);
     for (size_t i = 0; i < (size_t)m->tet_count; i++) {
         const int32_t *v = m->tet + 4 * i;
-        if (six_volume(x, v) > least_j * six_volume(m->xyz, v)) continue;
+        if (tet_j(m, x, (int32_t)i) > least_j) continue;
         count++;
         for (int k = 0; k < 4; k++) thin[v[k]] = 1;
     }
@@ -121,8 +117,8 @@ static bool move_tissue(const head_template *t, const rigid *motion, const head_
     return ok || err_prefix(e, "turning the mandible");
 }
 
-/* known[3*vertices] where the skin goes: what hangs on the tissue with it, of the rest what lies nearer to the skull
- * nowhere, what lies nearer to the mandible NAN. */
+/* known[3*vertices] where the skin goes: what hangs on the tissue goes with it; of the rest, what lies nearer to the
+ * skull stays, and what lies nearer to the mandible is not known, NAN. */
 static void know_skin(const head_template *t, const head_shape *s, const double *after, double *known)
 {
     size_t n = 3 * (size_t)t->tissue.mesh.vertex_count;

@@ -9,24 +9,6 @@
 /* What contact and the rounding of surfaces make of teeth that touch. */
 static const double overlap_allowed_mm = 0.1;
 
-static double tet_volume(const double *xyz, const int32_t *v)
-{
-    double d[3][3], across[3];
-    for (int k = 0; k < 3; k++) vec_sub(xyz + 3 * (size_t)v[k + 1], xyz + 3 * (size_t)v[0], d[k]);
-    vec_cross(d[0], d[1], across);
-    return vec_dot(across, d[2]) / 6;
-}
-
-static void measure_tets(const tetmesh *m, const double *at, const double *of_template, head_soundness *out)
-{
-    for (int32_t i = 0; i < m->tet_count; i++) {
-        const int32_t *v = m->tet + 4 * (size_t)i;
-        double j = tet_volume(at, v) / tet_volume(of_template, v);
-        out->min_j = fmin(out->min_j, j);
-        out->inverted_tets += !(j > 0);
-    }
-}
-
 typedef struct depths {
     const nearest *in;
     const surface *of;
@@ -82,9 +64,8 @@ bool head_teeth_overlap(const surface *upper, const surface *lower, double *deep
 
 bool head_soundness_of(const head_template *t, const head_shape *s, head_soundness *out, err *e)
 {
-    head_soundness f = {.min_j = HUGE_VAL};
-    measure_tets(&t->tissue.mesh, s->neutral, t->tissue.mesh.xyz, &f);
-    measure_tets(&t->tissue.mesh, s->rest, t->rest, &f);
+    head_soundness f = {0};
+    f.min_j = head_min_j(t, s, &f.inverted_tets);
     if (f.inverted_tets) {
         f.bone_out_mm = f.teeth_overlap_mm = (double)NAN;
         *out = f;

@@ -1,6 +1,7 @@
 #include "sim/registration.h"
 #include "geometry/clock.h"
 #include "geometry/mem.h"
+#include "geometry/tet_volume.h"
 #include "geometry/vec.h"
 #include "sim/solver.h"
 #include "sim/src/identity/registration_springs.h"
@@ -167,7 +168,7 @@ bool registration_run(const registration_problem *problem, const registration_pa
     if (ok) {
         for (int32_t i = 0; i < problem->part_count; i++) r.gaps[i] = gaps_of(&w.springs, i);
         for (int32_t k = 0; k < w.springs.t.count; k++) r.given_way += w.springs.give[k] < 1;
-        r.min_j = registration_min_j(problem->body, r.xyz, &r.inverted_tets);
+        r.min_j = tets_min_j(problem->body, r.xyz, &r.inverted_tets);
         r.total_s = clock_s() - begin;
         *out = r;
     } else

@@ -1,6 +1,7 @@
 #include "sim/src/identity/registration_springs.h"
 #include "geometry/mem.h"
 #include "geometry/parallel.h"
+#include "geometry/tet_volume.h"
 #include "geometry/vec.h"
 #include <stdlib.h>
 #include <string.h>
@@ -143,30 +144,6 @@ void registration_springs_aim(registration_springs *s, const registration_round 
     parallel_for(s->t.count, GRAIN, aim_body, &job);
     for (int32_t i = 0; i < parts; i++) free(job.normal[i]);
     free(job.normal);
-}
-
-static double tet_j(const tetmesh *m, const double *x, int32_t t)
-{
-    const int32_t *v = m->tet + 4 * (size_t)t;
-    const double *p[4], *r[4];
-    for (int k = 0; k < 4; k++) {
-        p[k] = x + 3 * (size_t)v[k];
-        r[k] = m->xyz + 3 * (size_t)v[k];
-    }
-    return vec_six_volume(p[0], p[1], p[2], p[3]) / vec_six_volume(r[0], r[1], r[2], r[3]);
-}
-
-double registration_min_j(const tetmesh *body, const double *x, int32_t *inverted)
-{
-    double least = HUGE_VAL;
-    int32_t count = 0;
-    for (int32_t t = 0; t < body->tet_count; t++) {
-        double j = tet_j(body, x, t);
-        least = fmin(least, j);
-        count += !(j > 0);
-    }
-    if (inverted) *inverted = count;
-    return least;
 }
 
 /* Nodes of tets that have a marked node are marked. */

@@ -26,5 +26,3 @@ void registration_springs_aim(registration_springs *s, const registration_round 
 /* Springs within two tets of one whose det F at x is below min_j give way, anchors to an eighth and others to a
  * half; returns how many tets there are. */
 int32_t registration_springs_give(registration_springs *s, const double *x, double min_j);
-/* The smallest det F; *inverted (may be NULL): how many are not above 0. */
-double registration_min_j(const tetmesh *body, const double *x, int32_t *inverted);
