@@ -8,8 +8,8 @@ typedef struct bone_fields {
     distance_samples part[SEGMENT_COUNT]; /* of segments that the case has */
 } bone_fields;
 
-/* Around the nodes on skin, bone and holes; what a bone meets that comes from farther off is found when asked. The
- * caller frees *out. Refuses what nearest_create refuses. */
+/* Around the nodes on skin, bone and holes that lie near the bone; what it meets that comes from farther off is found
+ * when asked. The caller frees *out. Refuses what nearest_create refuses. */
 bool bone_fields_make(const segments *s, const tissue *t, bone_fields *out, err *e) MUST_CHECK;
 void bone_fields_free(bone_fields *f); /* idempotent */
 /* Numbers of these segments? */
