@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { KEY_NORM = KEY_OWN, KEY_SEED, KEY_COARSE, KEY_P, KEY_RANDOM };
+enum { KEY_NORM = KEY_OWN, KEY_SEED, KEY_P, KEY_RANDOM };
 
 static const struct argp_option options[] = {
     {"output", 'o', "PATH", 0,
@@ -21,7 +21,6 @@ static const struct argp_option options[] = {
     {"force", 'f', NULL, 0, "Replace an earlier output", 0},
     {NULL, 0, NULL, 0, "learn:", 1},
     {"norm", KEY_NORM, "N", 0, "Also from N heads drawn from published norms, sexes and classes in turn", 1},
-    {"coarseness", KEY_COARSE, "FACTOR", 0, "Edge lengths of their meshes, 1 to 3 (where absent 2)", 1},
     {NULL, 0, NULL, 0, "make:", 2},
     {"p", KEY_P, "A,B,...", 0, "Coefficients of the first modes, in standard deviations", 2},
     {"random", KEY_RANDOM, NULL, 0, "Draw all of them", 2},
@@ -113,15 +112,8 @@ static void check(run_context *r, struct argp_state *state)
 static error_t parse(int key, char *arg, run_context *r, struct argp_state *state)
 {
     identities_options *o = r->own;
-    char *end;
     switch (key) {
     case KEY_NORM: o->learn.norm_heads = (int32_t)whole(o->of_learn = "--norm", arg, 1, 100000, state); return 0;
-    case KEY_COARSE:
-        o->of_learn = "--coarseness";
-        o->learn.coarseness = strtod(arg, &end);
-        if (end == arg || *end || !(o->learn.coarseness >= 1 && o->learn.coarseness <= 3))
-            command_usage(state, "--coarseness %s: must be a number from 1 to 3", arg);
-        return 0;
     case KEY_SEED:
         o->learn.seed = o->made.seed = (uint64_t)whole(o->seed = "--seed", arg, 1, INT64_MAX, state);
         return 0;
@@ -149,8 +141,7 @@ static error_t parse(int key, char *arg, run_context *r, struct argp_state *stat
 
 static void defaults(void *own)
 {
-    *(identities_options *)own =
-        (identities_options){.what = WORDS, .learn = {.seed = 1, .coarseness = 2}, .made = {.seed = 1}};
+    *(identities_options *)own = (identities_options){.what = WORDS, .learn = {.seed = 1}, .made = {.seed = 1}};
 }
 
 static bool open_output(run_context *r, err *e) { return output_dir_open(r->out_path, r->force, &r->dir, e); }
@@ -212,7 +203,7 @@ static bool make(run_context *r, const head_template *t, head_model *m, err *e)
     return ok;
 }
 
-/* What is wrong with the model's name is told before the template is looked for, and before the work of an hour. */
+/* What is wrong with the model's name is told before the template is looked for, and before the work of minutes. */
 static bool find_model(const run_context *r, err *e)
 {
     identities_options *o = r->own;
@@ -224,10 +215,11 @@ static bool find_model(const run_context *r, err *e)
     if (o->what == LEARN) return named || user_cache_folders(o->model, "the model", "-o", e);
     if (!access(o->model, R_OK)) return true;
     return named ? err_at(e, ERR_INPUT, o->model, 0, NULL, "cannot be read: %s", strerror(errno))
-                 : err_at(e, ERR_INPUT, o->model, 0, NULL,
-                          "cannot be read: %s; gnathos identities learn --norm 120 makes it, in about an hour, or name "
-                          "a model before all else",
-                          strerror(errno));
+                 : err_at(
+                       e, ERR_INPUT, o->model, 0, NULL,
+                       "cannot be read: %s; gnathos identities learn --norm 120 makes it, in some ten minutes, or name "
+                       "a model before all else",
+                       strerror(errno));
 }
 
 static bool run(run_context *r, err *e)

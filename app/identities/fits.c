@@ -1,5 +1,6 @@
 #include "app/identities/fits.h"
 #include "app/planner/identity/fit_file.h"
+#include "app/planner/identity/template_get.h"
 #include "geometry/mem.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +25,8 @@ bool fits_case(const head_template *t, const char *path, const task *watch, head
     head_scan scan = {0};
     head_fit_params p = head_fit_params_default();
     bool ok = case_file_load(path, &c, e) && head_scan_read(&c, *c.landmarks != 0, &scan, e) &&
-              head_fit_make(t, &scan, &p, watch, out, e);
+              (head_fit_is_numbered(t, &scan) ? head_fit_numbered(t, &scan, watch, out, e)
+                                              : head_fit_make(t, &scan, &p, watch, out, e));
     if (ok) snprintf(name, name_size, "%s", c.name);
     head_scan_free(&scan);
     return ok;
@@ -43,23 +45,21 @@ static norm_head_params norm_params(const identities_learn *p, int32_t i)
     n.sex = i % 2 ? NORM_MALE : NORM_FEMALE;
     n.skeletal_class = 1 + i / 2 % 3;
     n.seed = p->seed + (uint64_t)i;
-    n.coarseness = p->coarseness;
     return n;
 }
 
-static bool fit_norm_head(const fits_source *s, int32_t i, const task *watch, head_fit *out, err *e)
+/* As coarse as the template, a norm head has its numbering. */
+static bool norm_head_of(const fits_source *s, int32_t i, const task *watch, head_fit *out, err *e)
 {
-    head_fit_params how = head_fit_params_default();
     norm_head_params p = norm_params(s->p, i);
     norm_head h;
     if (!norm_head_shape(s->mean, &p, &h, e)) return false;
-    head_scan scan = {.points = h.points,
-                      .part = {[CASE_SKIN] = h.skin,
-                               [CASE_SKULL] = h.skull,
-                               [CASE_MANDIBLE] = h.mandible,
-                               [CASE_UPPER_TEETH] = h.upper_teeth,
-                               [CASE_LOWER_TEETH] = h.lower_teeth}};
-    bool ok = head_fit_make(s->t, &scan, &how, watch, out, e);
+    const head_scan scan = {.part = {[CASE_SKIN] = h.skin,
+                                     [CASE_SKULL] = h.skull,
+                                     [CASE_MANDIBLE] = h.mandible,
+                                     [CASE_UPPER_TEETH] = h.upper_teeth,
+                                     [CASE_LOWER_TEETH] = h.lower_teeth}};
+    bool ok = head_fit_numbered(s->t, &scan, watch, out, e);
     norm_head_free(&h); /* what the scan borrowed */
     return ok;
 }
@@ -73,7 +73,7 @@ static bool shape_of(void *context, int32_t i, head_shape *out, err *e)
     char name[FIELD_TEXT_SIZE];
     head_fit f;
     bool ok = i < s->p->case_count ? fits_case(s->t, s->p->cases[i], &quiet, &f, name, sizeof name, e)
-                                   : fit_norm_head(s, i - s->p->case_count, &quiet, &f, e);
+                                   : norm_head_of(s, i - s->p->case_count, &quiet, &f, e);
     if (!ok) return false;
     double guessed = fits_guessed(s->t, &f, CASE_SKIN);
     if (i < s->p->case_count && guessed > guessed_told)
@@ -112,7 +112,6 @@ static bool make_key(fits_source *s, err *e)
     }
     content_hash_number(h, "norm", p->norm_heads);
     content_hash_number(h, "seed", (double)p->seed);
-    content_hash_number(h, "coarseness", p->coarseness);
     content_hash_end(h, s->key);
     return ok;
 }
@@ -134,7 +133,7 @@ bool fits_source_open(const head_template *t, const identities_learn *p, const t
     }
     out->source = (head_source){count, out->names, shape_of, out};
     task_progress(watch, "the mean norm head", -1);
-    bool ok = make_key(out, e) && (!p->norm_heads || norm_mean_build(p->coarseness, false, &out->mean, e));
+    bool ok = make_key(out, e) && (!p->norm_heads || norm_mean_build(head_template_coarseness, false, &out->mean, e));
     if (!ok) fits_source_free(out);
     return ok;
 }

@@ -11,8 +11,7 @@ typedef struct identities_learn {
     int32_t case_count;
     int32_t norm_heads; /* drawn besides: sexes and classes in turn, seeds from `seed` on */
     uint64_t seed;
-    double coarseness; /* of their meshes */
-    bool anew;         /* a journal of other work makes way */
+    bool anew; /* a journal of other work makes way */
 } identities_learn;
 
 typedef struct identities_learnt {

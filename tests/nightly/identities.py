@@ -2,7 +2,7 @@
 """identities.py GNATHOS FOLDER [--norm N] [--held N] [--fitted N] [--random N] [--predicted N] [--data DATA]
 
 Learns identities from norm heads and tells how good they are: fits of heads that were held out and of the two real ones, what
-40 coefficients make of them, random heads and predictions of them. FOLDER keeps what is done; the same command goes on from
+40 coefficients make of them (norm heads in the template's numbering are taken as they are), random heads and predictions of them. FOLDER keeps what is done; the same command goes on from
 there, and does again what failed. Fails if a fitted head is off by more than 0.5 mm in the mean or 1.5 mm at 95 % of the skin
 or 0.8 mm in the mean of a bone or has a tetrahedron inside out, a held-out head is made with more than 0.5 mm in the mean or
 3.3 mm at most over the face, or a random head cannot be had. What needs the scans in DATA (GNATHOS_DATA) is left out, and
@@ -142,11 +142,12 @@ def main():
         if os.path.exists(case):
             real.append((name, case))
     fitted = dict(fits(gnathos, folder, held[:a.fitted] + real, faults))
-    held, real = ([(name, fitted.get(name, case)) for name, case in of] for of in (held, real))
+    real = [(name, fitted.get(name, case)) for name, case in real]
     for name, face in projections(gnathos, folder, model, held):
         if not face or face["mean_mm"] > 0.5 or face["max_mm"] > 3.3:
             faults.append(f"{name}: not within 0.5 mm in the mean and 3.3 mm at most over the face")
-    projections(gnathos, folder, model, real)
+    print("\nThe same from fits, whose vertices slide along the surface, and scans")
+    projections(gnathos, folder, model, [(f"fit_{name}", fitted[name]) for name, _ in held if name in fitted] + real)
 
     draws, made, predicted, refused = 0, 0, 0, {}
     plan = os.path.join(folder, "plan.json")

@@ -186,12 +186,62 @@ static void a_cut_and_noisy_scan_is_fitted_where_it_is(void **state)
     head_scan_free(&whole);
 }
 
+/* Every vertex of the scan is where it was, and the tissue, of which nothing was told, goes as it went. */
+static void a_head_in_the_template_s_numbering_is_known(void **state)
+{
+    (void)state;
+    err e = {0};
+    bending b = make_bending(3);
+    rigid motion = rigid_rotation((double[]){10, -30, 20}, (double[]){0.6, 0.48, 0.64}, 0.5);
+    head_scan s = scan_of(&b, &motion, 1.03);
+    head_fit f;
+    assert_true(head_fit_is_numbered(&t, &s));
+    assert_ok(head_fit_numbered(&t, &s, NULL, &f, &e));
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+        assert_memory_equal(f.shape.part[p], s.part[p].xyz, 3 * (size_t)s.part[p].vertex_count * sizeof(double));
+        for (int32_t v = 0; v < s.part[p].vertex_count; v++) assert_int_equal(f.guessed[p][v], GUESS_NONE);
+    }
+    double sum = 0, bent = 0, moved[3], u[3];
+    int32_t nodes = t.tissue.mesh.vertex_count;
+    for (size_t v = 0; v < (size_t)nodes; v++) {
+        push_of(&b, t.tissue.mesh.xyz + 3 * v, u);
+        vec_add(t.tissue.mesh.xyz + 3 * v, u, moved);
+        vec_scale(moved, 1.03, moved);
+        rigid_apply(&motion, moved, moved);
+        sum += vec_distance(f.shape.neutral + 3 * v, moved);
+        bent += vec_norm(u);
+    }
+    double off = 0;
+    int32_t carried = 0;
+    for (int32_t v = 0; v < t.skin_on_tissue.point_count; v++) {
+        int32_t tet = t.skin_on_tissue.tet[v];
+        double at[3] = {0};
+        if (tet < 0) continue;
+        for (int k = 0; k < 4; k++)
+            vec_axpy(at, t.skin_on_tissue.weight[4 * v + k], f.shape.neutral + 3 * t.tissue.mesh.tet[4 * tet + k], at);
+        off += vec_distance(at, s.part[CASE_SKIN].xyz + 3 * v);
+        carried++;
+    }
+    print_message("tissue %.3f mm off in the mean where it was bent by %.1f, skin on it %.3f; min J %.2f, %.1f s\n",
+                  sum / nodes, bent / nodes, off / carried, f.min_j, f.total_s);
+    assert_true(bent / nodes > 5 && sum / nodes < 1.5 && off / carried < 0.2);
+    assert_true(f.min_j > 0 && f.inverted_tets == 0);
+    head_fit_free(&f);
+    int32_t first = s.part[CASE_SKIN].tri[0];
+    s.part[CASE_SKIN].tri[0] = s.part[CASE_SKIN].tri[1];
+    s.part[CASE_SKIN].tri[1] = first;
+    assert_false(head_fit_is_numbered(&t, &s));
+    assert_refused(head_fit_numbered(&t, &s, NULL, &f, &e), ERR_INPUT);
+    head_scan_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_moved_and_scaled_template_is_recovered),
         cmocka_unit_test(a_bent_head_is_recovered),
         cmocka_unit_test(a_cut_and_noisy_scan_is_fitted_where_it_is),
+        cmocka_unit_test(a_head_in_the_template_s_numbering_is_known),
     };
     return cmocka_run_group_tests(tests, open_template, close_template);
 }

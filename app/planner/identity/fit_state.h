@@ -11,9 +11,17 @@ typedef struct fit_state {
     surface at[CASE_SURFACE_COUNT];             /* the template's parts where they are now */
     surface placed[CASE_SURFACE_COUNT];         /* and before they were bent */
     double *nodes, *placed_nodes;               /* [3*nodes] of the tissue at neutral, the same two */
-    uint8_t *buried[CASE_SURFACE_COUNT];        /* [vertices] of teeth: 1 in the bone or next to it; else NULL */
+    bool known; /* every vertex of `at` is where the patient has it: only the tissue is sought */
+    uint8_t *buried[CASE_SURFACE_COUNT]; /* [vertices] of teeth: 1 in the bone or next to it; else NULL */
     fit_cost cost;
 } fit_state;
+
+/* head_fit.c: the template as it was placed (or params->from), and what the fit came to: shape, tets, cost. fit_keep
+ * refuses (ERR_NOT_CONVERGED) a tet that is inside out. */
+fit_state fit_begin(const head_template *t, const head_scan *s, const head_fit_params *params, const task *watch,
+                    const head_place *place);
+bool fit_keep(const fit_state *f, head_fit *out, err *e) MUST_CHECK;
+void fit_end(fit_state *f);
 
 /* fit_measure.c: gaps both ways and guesses of a part as it is. */
 void fit_measure_part(const fit_state *f, const head_scan *s, case_surface p, head_fit *out);

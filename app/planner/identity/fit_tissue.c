@@ -53,7 +53,20 @@ static case_surface nearest_bone(distance_tree *const tree[], const double p[3])
     return best;
 }
 
-/* Tied nodes and their places on the bones; node as a point of one of its tets. */
+/* Skin whose places are known. */
+static void add_skin(const fit_state *f, embedding *in, double *place)
+{
+    const embedding *skin = &f->t->skin_on_tissue;
+    for (size_t v = 0; v < (size_t)skin->point_count; v++) {
+        if (skin->tet[v] < 0) continue;
+        size_t k = (size_t)in->point_count++;
+        in->tet[k] = skin->tet[v];
+        memcpy(in->weight + 4 * k, skin->weight + 4 * v, 4 * sizeof(double));
+        vec_copy(f->at[CASE_SKIN].xyz + 3 * v, place + 3 * k);
+    }
+}
+
+/* Tied nodes and their places on the bones, node as a point of one of its tets, and the skin where it is known. */
 static registration_anchors tie(const fit_state *f, embedding *in, double **place)
 {
     const tetmesh *m = &f->t->tissue.mesh;
@@ -65,9 +78,9 @@ static registration_anchors tie(const fit_state *f, embedding *in, double **plac
             corner[m->tet[4 * (size_t)t + (size_t)k]] = k;
         }
     for (int s = CASE_SKULL; s < CASE_SURFACE_COUNT; s++) tree[s] = distance_tree_make(&f->placed[s]);
-    *in = (embedding){.tet = NEW_ARRAY(int32_t, m->vertex_count),
-                      .weight = NEW_ARRAY(double, 4 * (size_t)m->vertex_count)};
-    *place = NEW_ARRAY(double, 3 * (size_t)m->vertex_count);
+    size_t most = (size_t)m->vertex_count + (size_t)f->t->skin_on_tissue.point_count;
+    *in = (embedding){.tet = NEW_ARRAY(int32_t, most), .weight = NEW_ARRAY(double, 4 * most)};
+    *place = NEW_ARRAY(double, 3 * most);
     for (int32_t v = 0; v < m->vertex_count; v++) {
         if (f->t->tissue.attach.kind[v] != NODE_TIED || f->t->tissue.side[v] != SIDE_BONE) continue;
         const double *p = f->placed_nodes + 3 * (size_t)v;
@@ -77,6 +90,7 @@ static registration_anchors tie(const fit_state *f, embedding *in, double **plac
         in->weight[4 * k + (size_t)corner[v]] = 1;
         place_on(&f->placed[s], &f->at[s], tree[s], p, *place + 3 * k);
     }
+    if (f->known) add_skin(f, in, *place);
     for (int s = CASE_SKULL; s < CASE_SURFACE_COUNT; s++) distance_tree_free(&tree[s]);
     free(tet_of);
     free(corner);
@@ -92,15 +106,16 @@ bool fit_tissue(fit_state *f, err *e)
     embedding in;
     registration r;
     registration_anchors anchors = tie(f, &in, &place);
-    registration_part skin = {&f->placed[CASE_SKIN], &f->t->skin_on_tissue, f->target[CASE_SKIN], NULL, 1};
+    const target_surface *drawn_to = f->known ? NULL : f->target[CASE_SKIN];
+    registration_part skin = {&f->placed[CASE_SKIN], &f->t->skin_on_tissue, drawn_to, NULL, 1};
     registration_problem problem = {
         .body = &body, .start_xyz = f->nodes, .part_count = 1, .part = &skin, .anchors = &anchors};
     registration_params how = registration_params_default();
     how.poisson = 0.3;
-    how.stages = 4;
+    how.stages = f->known ? 1 : 4; /* nothing is found anew */
     how.rounds = 3;
     how.soft_mm = 20;
-    how.stiff_mm = 1;
+    how.stiff_mm = f->known ? 0.5 : 1;
     how.reach_first_mm = 20;
     how.reach_mm = 10;
     how.facing_cos = 0.3;

@@ -19,8 +19,8 @@ void head_fit_free(head_fit *f)
     *f = (head_fit){0};
 }
 
-static fit_state begin(const head_template *t, const head_scan *s, const head_fit_params *params, const task *watch,
-                       const head_place *place)
+fit_state fit_begin(const head_template *t, const head_scan *s, const head_fit_params *params, const task *watch,
+                    const head_place *place)
 {
     fit_state f = {.t = t, .params = params, .watch = watch, .cost = {.min_j = HUGE_VAL}};
     size_t n = 3 * (size_t)t->tissue.mesh.vertex_count;
@@ -45,7 +45,7 @@ static fit_state begin(const head_template *t, const head_scan *s, const head_fi
     return f;
 }
 
-static void end(fit_state *f)
+void fit_end(fit_state *f)
 {
     for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
         target_surface_free(&f->target[p]);
@@ -57,19 +57,19 @@ static void end(fit_state *f)
     free(f->placed_nodes);
 }
 
-static void finish(fit_state *f, const head_scan *s, head_fit *out)
+bool fit_keep(const fit_state *f, head_fit *out, err *e)
 {
     size_t n = 3 * (size_t)f->t->tissue.mesh.vertex_count;
-    for (int p = 0; p < CASE_SURFACE_COUNT; p++) {
+    for (int p = 0; p < CASE_SURFACE_COUNT; p++)
         out->shape.part[p] = COPY_ARRAY(double, f->at[p].xyz, 3 * (size_t)f->at[p].vertex_count);
-        fit_measure_part(f, s, (case_surface)p, out);
-    }
     out->shape.neutral = COPY_ARRAY(double, f->nodes, n);
     out->shape.rest = NEW_ARRAY(double, n);
     fit_rest(f->t, f->nodes, out->shape.rest);
     head_fit_measure_tets(f->t, out);
     out->iterations = f->cost.iterations;
     out->factorisations = f->cost.factorisations;
+    return !out->inverted_tets ||
+           err_set(e, ERR_NOT_CONVERGED, "the fit turns %d tets of the tissue inside out", out->inverted_tets);
 }
 
 bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_params *p, const head_place *place,
@@ -77,7 +77,7 @@ bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_pa
 {
     double start = clock_s();
     head_fit fit = {.place = *place};
-    fit_state f = begin(t, s, p, watch, place);
+    fit_state f = fit_begin(t, s, p, watch, place);
     task_progress(watch, "bending the whole", 0.1);
     bool ok = fit_bend(&f, e);
     task_progress(watch, "bones and teeth", 0.4);
@@ -90,11 +90,10 @@ bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_pa
     if (ok) {
         fit.total_s = clock_s() - start;
         fit.tissue_s = fit.total_s - fit.bones_s;
-        finish(&f, s, &fit);
-        if (fit.inverted_tets)
-            ok = err_set(e, ERR_NOT_CONVERGED, "the fit turns %d tets of the tissue inside out", fit.inverted_tets);
+        for (int part = 0; part < CASE_SURFACE_COUNT; part++) fit_measure_part(&f, s, (case_surface)part, &fit);
+        ok = fit_keep(&f, &fit, e);
     }
-    end(&f);
+    fit_end(&f);
     if (ok)
         *out = fit;
     else

@@ -45,6 +45,11 @@ bool head_fit_make(const head_template *t, const head_scan *s, const head_fit_pa
 /* The same from a place that is known. */
 bool head_fit_from(const head_template *t, const head_scan *s, const head_fit_params *p, const head_place *place,
                    const task *watch, head_fit *out, err *e) MUST_CHECK;
+/* The surfaces of a scan are the template's, vertex by vertex: so are those of heads that gnathos makes as coarse. */
+bool head_fit_is_numbered(const head_template *t, const head_scan *s);
+/* The fit of such a scan: its vertices are known and nothing is sought but the tissue between them. No gaps. Refuses
+ * (ERR_INPUT) other scans, and what head_fit_make refuses of the tissue. */
+bool head_fit_numbered(const head_template *t, const head_scan *s, const task *watch, head_fit *out, err *e) MUST_CHECK;
 /* min_j and inverted_tets of the shape as it is, the place's size taken out. */
 void head_fit_measure_tets(const head_template *t, head_fit *f);
 /* What a picture shows of a vertex: its gap, NAN where it is absent or closed. */

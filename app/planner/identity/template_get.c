@@ -10,13 +10,14 @@
 #include <unistd.h>
 
 /* Parts of 2,000 to 11,000 vertices and a tissue of about 7,000 nodes: what networks over many identities can carry. */
-static const double coarseness = 2, element_mm = 4, coarse_mm = 12;
+const double head_template_coarseness = 2;
+static const double element_mm = 4, coarse_mm = 12;
 
 /* Every measure in the middle between the means of women and of men, class I. */
 static norm_head_params mean_of_all(void)
 {
     norm_head_params p = norm_head_params_default();
-    p.coarseness = coarseness;
+    p.coarseness = head_template_coarseness;
     for (int i = 0; i < MEASURE_COUNT; i++) {
         p.is_set[i] = true;
         p.set[i] = 0.5 * (measures[i].mean[NORM_FEMALE] + measures[i].mean[NORM_MALE]);

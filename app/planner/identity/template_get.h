@@ -12,6 +12,9 @@ typedef struct template_source {
     double made_s, open_s; /* wall; made_s 0 where it was found */
 } template_source;
 
+extern const double
+    head_template_coarseness; /* of its parts: norm heads as coarse (norm_head.h) have their numbering */
+
 /* The file that GNATHOS_TEMPLATE names; without it template-VERSION.pack in the installed data, else in
  * $XDG_CACHE_HOME/gnathos or ~/.cache/gnathos. One that is not there is made, about a minute, and kept under its name
  * in one step: several processes at once do no harm. A cached one that is damaged or not of this version is made anew;
