@@ -1,5 +1,5 @@
 #include "app/planner/identity/point_refine.h"
-#include "app/planner/identity/point_rules.h"
+#include "app/planner/identity/point_carry.h"
 #include "app/planner/identity/point_seek.h"
 #include "app/planner/patient/landmark_needs.h"
 #include "geometry/frame.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { LEGS = 6 };
-static const double snap_mm = 8, trusted_mm = 8, shaken_mm = 2;
+static const double snap_mm = 8, shaken_mm = 2;
 
 /* The surface that carries it: teeth that are no part of their own are part of their bone. */
 static const surface *carrier(const surface part[CASE_SURFACE_COUNT], case_surface on)
@@ -25,6 +25,18 @@ static surface surface_in(const surface *s, const head_frame *f)
     for (int32_t v = 0; v < s->vertex_count; v++)
         head_frame_to_local(f, s->xyz + 3 * (size_t)v, out.xyz + 3 * (size_t)v);
     return out;
+}
+
+/* How much steeper than usual (25 degrees to the Frankfort plane) the mandible stands, radians: a chin that recedes, or
+ * that an open mouth took down, is most prominent along its own jaw. */
+static double steeper(const landmarks *l)
+{
+    const double usual = 25 * M_PI / 180;
+    const landmark *chin = landmarks_find(l, "Me"), *left = landmarks_find(l, "Go_L"),
+                   *right = landmarks_find(l, "Go_R");
+    if (!chin || !left || !right) return 0;
+    return atan2((left->xyz[2] + right->xyz[2]) / 2 - chin->xyz[2], (left->xyz[1] + right->xyz[1]) / 2 - chin->xyz[1]) -
+           usual;
 }
 
 /* Of the points as far as they are known by now. Without a rule the nearest place on the surface is sought. False: a
@@ -47,53 +59,28 @@ static bool make_seek(const point_rule *r, int side, const landmarks *now, const
         out->direction[1] = upper->xyz[2] - lower->xyz[2];
         out->direction[2] = lower->xyz[1] - upper->xyz[1];
     }
+    if (r->turns) {
+        double angle = steeper(now), y = out->direction[1], z = out->direction[2];
+        out->direction[1] = y * cos(angle) - z * sin(angle);
+        out->direction[2] = z * cos(angle) + y * sin(angle);
+    }
     if (side < 0) out->direction[0] *= -1;
     vec_normalize(out->direction);
     return true;
 }
 
-/* Where a point is carried to, once its anchor has found its own place. */
-static void by_anchor(const point_rule *r, int side, const landmarks *carried, const landmarks *now, double x[3])
+/* What lies below the place of a label that was found. */
+static surface part_below(const surface *s, const char *label, const landmarks *now)
 {
-    char label[LANDMARK_LABEL_SIZE];
-    snprintf(label, sizeof label, "%s%s", r->anchor, side > 0 ? "_L" : side < 0 ? "_R" : "");
-    const landmark *before = landmarks_find(carried, label), *after = landmarks_find(now, label);
-    if (!before || !after) return;
-    double moved[3];
-    vec_copy(x, moved);
-    for (int c = 0; c < 3; c++)
-        if (r->axes >> c & 1)
-            moved[c] = after->xyz[c] + r->offset[c] * (c == 0 && side < 0 ? -1 : 1);
-        else if (!r->axes)
-            moved[c] += after->xyz[c] - before->xyz[c];
-    if (fabs(moved[2] - x[2]) < trusted_mm) vec_copy(moved, x); /* else the anchor itself is astray */
-}
-
-/* z = plane[0] + plane[1] x + plane[2] y, through the lower first molars and the incisors of an open mouth. False: it
- * is closed, and its plane of occlusion is where the ramus that was carried has it, or they are not there. */
-static bool lower_row_plane(const landmarks *l, double plane[3])
-{
-    static const double open_mm = 3;
-    const landmark *a = landmarks_find(l, "L1"), *b = landmarks_find(l, "L6_L"), *c = landmarks_find(l, "L6_R"),
-                   *upper = landmarks_find(l, "U1");
-    double u[3], w[3], n[3];
-    if (!a || !b || !c || !upper || upper->xyz[2] - a->xyz[2] < open_mm) return false;
-    vec_sub(b->xyz, a->xyz, u);
-    vec_sub(c->xyz, a->xyz, w);
-    vec_cross(u, w, n);
-    if (fabs(n[2]) < 0.5 * vec_norm(n)) return false; /* a row that stands upright is none */
-    plane[1] = -n[0] / n[2];
-    plane[2] = -n[1] / n[2];
-    plane[0] = a->xyz[2] - plane[1] * a->xyz[0] - plane[2] * a->xyz[1];
-    return true;
-}
-
-static void to_occlusion(const landmarks *now, double x[3])
-{
-    double plane[3];
-    if (!lower_row_plane(now, plane)) return;
-    double z = plane[0] + plane[1] * x[0] + plane[2] * x[1];
-    if (fabs(z - x[2]) < trusted_mm) x[2] = z;
+    const landmark *top = landmarks_find(now, label);
+    uint8_t *keep = NEW_ARRAY(uint8_t, s->triangle_count);
+    for (size_t k = 0; k < (size_t)s->triangle_count; k++) {
+        keep[k] = 1;
+        for (int c = 0; top && c < 3; c++) keep[k] &= s->xyz[3 * (size_t)s->tri[3 * k + (size_t)c] + 2] <= top->xyz[2];
+    }
+    surface out = surface_select(s, keep);
+    free(keep);
+    return out;
 }
 
 static bool seek_as(const surface *near_by, const point_seek *s, const point_rule *r, double out[3])
@@ -110,6 +97,11 @@ static void refine_one(const surface *on, const point_rule *r, int side, const l
     vec_copy(p->at, carried);
     if (!on->triangle_count || !make_seek(r, side, now, carried, &s)) return;
     surface near_by = point_crop(on, carried, s.reach_mm + shaken_mm + (r && r->saddle ? 7 : 1));
+    if (r && r->below) {
+        surface low = part_below(&near_by, r->below, now);
+        surface_free(&near_by);
+        near_by = low;
+    }
     p->found = seek_as(&near_by, &s, r, p->at);
     for (int leg = 0; p->found && leg < LEGS; leg++) {
         double x[3];
@@ -207,8 +199,9 @@ static void refine_row(const surface part[CASE_SURFACE_COUNT], const point_rule 
         case_surface on = r ? r->on : surface_of(now->point[i].label, &middle);
         if (r != row || (on == CASE_SURFACE_COUNT && !r)) continue;
         vec_copy(now->point[i].xyz, out[i].at);
-        if (r && r->occlusal) to_occlusion(now, out[i].at);
-        if (r && r->anchor) by_anchor(r, side, carried, now, out[i].at);
+        if (r && r->occlusal) point_carry_to_occlusion(now, out[i].at);
+        if (r && r->row_ends && carrier(part, on) != &part[on]) point_carry_to_ramus(now, side, out[i].at);
+        if (r && r->anchor) point_carry_by_anchor(r, side, carried, now, out[i].at);
         out[i].by_rule = r;
         out[i].doubt_mm = r ? r->doubt_mm : 0;
         if (on != CASE_SURFACE_COUNT) refine_one(carrier(part, on), r, side, now, out + i);

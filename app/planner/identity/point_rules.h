@@ -15,9 +15,12 @@ typedef struct point_rule {
     const char *anchor;   /* a label of the same side that knows more of the place than what was carried */
     unsigned axes; /* in these axes (bits 1, 2, 4) the place is `offset` from the anchor; 0: it moves along with it */
     double offset[3];
-    bool occlusal;   /* in an open mouth its height is that of the lower row of teeth */
-    double doubt_mm; /* of the definition itself, where heads or readers differ */
-    bool saddle;     /* the least far of the farthest points across, along saddle_axis */
+    bool turns;        /* the direction turns with a mandible that stands steeper or flatter than usual */
+    const char *below; /* a label that it cannot lie above, or NULL */
+    bool row_ends;     /* the last molar, where teeth and bone are one: the row goes on as far as the ramus begins */
+    bool occlusal;     /* in an open mouth its height is that of the lower row of teeth */
+    double doubt_mm;   /* of the definition itself, where heads or readers differ */
+    bool saddle;       /* the least far of the farthest points across, along saddle_axis */
     int saddle_axis;
 } point_rule;
 
