@@ -9,6 +9,8 @@
 #endif
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 typedef struct fit_options {
     bool no_landmarks, no_pictures, complete;
@@ -31,8 +33,9 @@ static const struct argp_option options[] = {OPTION_OUTPUT("The folder of result
                                               "an open mouth by turning the mandible about its condyles",
                                               0},
                                              {"model", KEY_MODEL, "MODEL", 0,
-                                              "With --complete: what the scan lacks is that of the model's likeliest "
-                                              "head, not of the mean one",
+                                              "With --complete: what the scan lacks is that of this model's likeliest "
+                                              "head (where absent that of the user's own model, if there is one; none: "
+                                              "the mean head's)",
                                               0},
                                              {0}};
 
@@ -65,6 +68,25 @@ static bool open_case(run_context *r, err *e)
     return case_file_load(path, c, e);
 }
 
+/* The model by which a scan is completed; *found false: by the mean head. */
+static bool read_model(const run_context *r, const head_template *t, head_model *m, bool *found, err *e)
+{
+    const fit_options *o = r->own;
+    char own[FIELD_PATH_SIZE];
+    *found = false;
+    if (!o->complete || (o->model && !strcmp(o->model, "none"))) return true;
+    if (!o->model) {
+        if (!head_model_place(own, e)) return false;
+        if (access(own, F_OK) != 0) {
+            command_note(&r->common, "what is missing will be the mean head's: there is no model %s", own);
+            return true;
+        }
+        command_note(&r->common, "what is missing will be that of the likeliest head of %s", own);
+    }
+    *found = head_model_read(o->model ? o->model : own, t, m, e);
+    return *found;
+}
+
 static bool fit(run_context *r, const head_template *t, head_scan *s, head_fit *out, head_completion *how,
                 char told[256], err *e)
 {
@@ -72,7 +94,8 @@ static bool fit(run_context *r, const head_template *t, head_scan *s, head_fit *
     head_fit_params p = head_fit_params_default();
     head_model m = {0};
     head_place place;
-    if (o->model && !head_model_read(o->model, t, &m, e)) return false;
+    bool has_model;
+    if (!read_model(r, t, &m, &has_model, e)) return false;
     double start = clock_s(), placed_s = 0;
     bool ok = head_scan_read(&r->patient, !o->no_landmarks, s, e);
     if (ok) task_progress(&r->watch, "place", 0);
@@ -80,7 +103,7 @@ static bool fit(run_context *r, const head_template *t, head_scan *s, head_fit *
     placed_s = clock_s() - start;
     if (ok && *told) command_note(&r->common, "%s", told);
     if (ok && o->complete)
-        ok = head_complete(t, s, o->model ? &m : NULL, &place, &r->watch, out, how, e);
+        ok = head_complete(t, s, has_model ? &m : NULL, &place, &r->watch, out, how, e);
     else
         ok = ok && head_fit_from(t, s, &p, &place, &r->watch, out, e);
     head_model_free(&m);

@@ -1,5 +1,6 @@
 #include "app/identities/identities.h"
 #include "app/planner/identity/head_case.h"
+#include "app/planner/identity/head_fit.h"
 #include "geometry/mem.h"
 #include "geometry/write_whole.h"
 #include <math.h>
@@ -19,6 +20,26 @@ static void name_target(const char *now, const char *target, const char *text, c
         snprintf(out, size, "%s", text ? text : "");
 }
 
+/* Sums of modes are no elastic tissue: where they turn tetrahedra inside out, the tissue is sought anew between the
+ * parts that they made. What cannot be had stays as it was. */
+static bool mend_tissue(const head_template *t, identities_made *made, head_shape *s, err *e)
+{
+    head_scan parts = {0};
+    head_fit f;
+    err why = {0};
+    made->tissue_anew = made->sound.inverted_tets > 0;
+    if (!made->tissue_anew) return true;
+    for (int i = 0; i < CASE_SURFACE_COUNT; i++) parts.part[i] = head_part(t, s, (case_surface)i);
+    bool found = head_fit_numbered(t, &parts, NULL, &f, &why);
+    head_scan_free(&parts);
+    if (!found) return why.code == ERR_NOT_CONVERGED || err_set(e, why.code, "%s", why.text);
+    head_shape_free(s);
+    *s = f.shape;
+    f.shape = (head_shape){0};
+    head_fit_free(&f);
+    return head_soundness_of(t, s, &made->sound, e);
+}
+
 /* Writes it where everything but check, which reads files, finds nothing wrong. */
 static bool make_one(const head_template *t, const head_model *m, identities_made *made, const char *folder,
                      const task *watch, issue_list *warnings, err *e)
@@ -28,7 +49,7 @@ static bool make_one(const head_template *t, const head_model *m, identities_mad
     head_shape s = head_vector_shape(t, phi);
     free(phi);
     const char *slash = strrchr(made->folder, '/'), *name = slash && slash[1] ? slash + 1 : made->folder;
-    bool ok = head_soundness_of(t, &s, &made->sound, e) &&
+    bool ok = head_soundness_of(t, &s, &made->sound, e) && mend_tissue(t, made, &s, e) &&
               head_sound(&made->sound, made->of_template.teeth_overlap_mm, e) &&
               head_case_write(t, &s, NULL, folder, name, e) && head_case_passes(folder, watch, warnings, e);
     head_shape_free(&s);

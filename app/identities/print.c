@@ -57,5 +57,7 @@ void identity_made_print(const identities_made *m, FILE *to)
     fprintf(to,
             "\nleast volume ratio of a tetrahedron %.3f, bone outside the skin %.2f mm, teeth in each other %.2f mm\n",
             m->sound.min_j, m->sound.bone_out_mm, m->sound.teeth_overlap_mm);
+    if (m->tissue_anew)
+        fprintf(to, "its tissue is the elastic one between its parts: the modes turn some inside out\n");
     fprintf(to, "made %s\n", m->folder);
 }

@@ -134,6 +134,8 @@ static const record_row made_row[] = {
      .help = "coefficients, in standard deviations of their modes; those of further modes are 0"},
     ROW(identities_made, sound.min_j, "min_J", NULL, "least volume of a tetrahedron over its volume in the template"),
     ROW_FOUND(NUMBER, inverted, "inverted_tets", NULL, "tetrahedra turned inside out"),
+    ROW(identities_made, tissue_anew, "tissue_anew", NULL,
+        "the tissue that the modes made had some: it is the elastic one between the parts instead"),
     ROW(identities_made, sound.bone_out_mm, "bone_out_mm", "mm", "farthest that bone lies outside the skin"),
     ROW(identities_made, sound.teeth_overlap_mm, "teeth_overlap_mm", "mm",
         "deepest that upper and lower teeth lie in each other"),

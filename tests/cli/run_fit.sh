@@ -92,8 +92,9 @@ refused face 'face/case.json: surfaces.skull: is missing; name its file, or let 
 status=0
 "$gnathos" fit "$work/face" -o "$work/none" --model m >/dev/null 2>"$work/stderr" || status=$?
 [ $status -eq 2 ] && grep -q -- '--complete' "$work/stderr" || fail "--model alone: status $status: $(cat "$work/stderr")"
-"$gnathos" fit "$work/face" -o "$work/whole" --complete --no-pictures --json >"$work/whole.json" 2>"$work/told.txt"
+GNATHOS_IDENTITIES="$work/no.model" "$gnathos" fit "$work/face" -o "$work/whole" --complete --no-pictures --json >"$work/whole.json" 2>"$work/told.txt"
 /usr/bin/python3 "$here/check_record.py" "$gnathos" "$work/whole.json"
+grep -q "the mean head's: there is no model .*/no.model" "$work/told.txt" || fail "by what it is completed is not told: $(cat "$work/told.txt")"
 grep -q '^gnathos: mandible: warning: 100 % of it is guessed from the template: the scan has no such surface$' "$work/told.txt" ||
     fail "nothing warns of a guessed mandible: $(cat "$work/told.txt")"
 /usr/bin/python3 - "$work" <<'PY'

@@ -50,6 +50,20 @@ cmp cache/gnathos/identities-2.model learnt.model || { echo "the user's own mode
 "$gnathos" identities make --random --seed 4 -o own -q >/dev/null
 "$gnathos" identities make learnt.model --random --seed 4 -o named -q >/dev/null
 cmp own/skin.ply named/skin.ply || { echo "the user's own model makes another head"; exit 1; }
+mkdir face
+echo '{"gnathos": 1, "name": "face", "surfaces": {"skin": "../head/skin.ply"}}' >face/case.json
+"$gnathos" fit face --complete --no-pictures -o whole --json >whole.json 2>told.txt
+grep -q 'the likeliest head of .*cache/gnathos/identities-2.model' told.txt || { cat told.txt; exit 1; }
+/usr/bin/python3 "$here/check_record.py" "$gnathos" whole.json
+/usr/bin/python3 - <<'PY'
+import json, meshio, numpy
+done = json.load(open("whole.json"))["completion"]
+assert done["p"] and done["noise_mm"] > 0, done
+made, true = (meshio.read(f + "/mandible.ply").points for f in ("whole", "head"))
+off = numpy.linalg.norm(made - true, axis=1)
+print(f"a mandible guessed from the skin alone: {off.mean():.2f} mm off in the mean, {off.max():.2f} at most")
+assert off.mean() < 2
+PY
 GNATHOS_IDENTITIES=none.model refused 3 'none.model: cannot be read' show
 head -c 100000 bent.model >torn.model
 refused 3 'torn.model: is not a whole model of identities' show torn.model
