@@ -2,6 +2,7 @@
 #include "geometry/mem.h"
 #include "render/compose.h"
 #include "render/gallery.h"
+#include "render/picture.h"
 #include "render/png_file.h"
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 
 enum { WIDTH = 1920, HEIGHT = 1080 };
 
-/* Skin, or bones and teeth in one; gap (may be NULL) the same way. */
+/* Skin, or bones and teeth in one; gap the same way. */
 static surface fitted(const fit_pictures *p, bool bones, double **gap)
 {
     surface all = {0};
@@ -23,10 +24,7 @@ static surface fitted(const fit_pictures *p, bool bones, double **gap)
         surface_free(&all);
         all = sum;
     }
-    if (gap)
-        *gap = distance;
-    else
-        free(distance);
+    *gap = distance;
     return all;
 }
 
@@ -113,6 +111,17 @@ static bool draw_pair(const surface *shape, const landmarks *points, const head_
     return ok;
 }
 
+/* The usual colour, grey where gap_mm[vertex_count] is NAN: the scan has nothing there. */
+static uint8_t *colours(const surface *shape, const double *gap_mm)
+{
+    double usual[3];
+    uint8_t *rgb = NEW_ARRAY(uint8_t, 3 * (size_t)shape->vertex_count);
+    material_color(MATERIAL_SKIN, usual);
+    for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++)
+        rgb[i] = isnan(gap_mm[i / 3]) ? 120 : (uint8_t)lround(255 * usual[i % 3]);
+    return rgb;
+}
+
 bool fit_beside_write(const fit_pictures *p, const char *path, err *e)
 {
     landmarks points;
@@ -121,9 +130,12 @@ bool fit_beside_write(const fit_pictures *p, const char *path, err *e)
     if (!frame_of(p, &points, &frame, e)) return false;
     bool ok = true;
     for (int i = 0; ok && i < 4; i++) { /* scan: skin, bones; fitted: skin, bones */
-        surface shape = i < 2 ? scanned(p, i % 2) : fitted(p, i % 2, NULL);
+        double *gap = NULL;
+        surface shape = i < 2 ? scanned(p, i % 2) : fitted(p, i % 2, &gap);
+        if (gap) shape.rgb = colours(&shape, gap);
+        free(gap);
         if (shape.triangle_count)
-            ok = draw_pair(&shape, &points, &frame, i < 2 ? "scan" : "fitted template", tile + 2 * i, e);
+            ok = draw_pair(&shape, &points, &frame, i < 2 ? "scan" : "fitted template; grey: guessed", tile + 2 * i, e);
         else
             for (int k = 2 * i; k < 2 * i + 2; k++) tile[k] = image_new(WIDTH / 4, (HEIGHT - 60) / 2);
         surface_free(&shape);
