@@ -48,7 +48,7 @@ typedef struct identities_made {
     double p[HEAD_MODES_MOST];
     int32_t tries; /* of random draws, the last of which is a head */
     head_soundness sound, of_template;
-    bool tissue_anew; /* that of the modes had tetrahedra inside out: it is the elastic one between the parts */
+    bool tissue_anew;   /* that of the modes had tetrahedra inside out: it is the elastic one between the parts */
     const char *folder; /* borrowed */
 } identities_made;
 
