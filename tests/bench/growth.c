@@ -1,5 +1,5 @@
 /* How time and memory of a cold solve of the curved slab to 1e-6 grow with its size. Prints CSV.
- *   growth [threads, default 1] [most cells through the thickness, default 22: 1M unknowns]
+ *   growth [threads, default 1] [most cells through the thickness, default 22: 1M unknowns] [Poisson's ratio ...]
  * Each size runs in a process of its own, so that its largest memory is its own; exponent: of time between
  * this size and the smallest one (1: in proportion). */
 #include "tests/bench/yardstick.h"
@@ -43,7 +43,10 @@ int main(int argc, char **argv)
     parallel_set_threads(threads);
     puts("nodes,unknowns,poisson,threads,outcome,iterations,cg,factorisations,wall_s,cpu_s,peak_mb,wall_exponent,cpu_"
          "exponent");
-    for (int n = 0; n < 2; n++) {
+    static char *usual[] = {"0.45", "0.49"};
+    char **poisson = argc > 3 ? argv + 3 : usual;
+    for (int n = 0; n < (argc > 3 ? argc - 3 : 2); n++) {
+        double nu = atof(poisson[n]);
         result first = {0};
         for (size_t k = 0; k < sizeof cells / sizeof *cells && cells[k] <= most; k++) {
             int end[2], status;
@@ -52,7 +55,7 @@ int main(int argc, char **argv)
             if (pipe(end) != 0) return 1;
             pid_t child = fork();
             if (child == 0) {
-                r = run(cells[k], n ? 0.49 : 0.45, threads);
+                r = run(cells[k], nu, threads);
                 _exit(write(end[1], &r, sizeof r) == sizeof r ? 0 : 1);
             }
             close(end[1]);
@@ -62,9 +65,9 @@ int main(int argc, char **argv)
             if (wait4(child, &status, 0, &used) != child || !ok) return 1;
             if (k == 0) first = r;
             double more = log((double)r.unknowns / (double)first.unknowns);
-            printf("%d,%lld,%.2f,%d,%s,%d,%d,%d,%.2f,%.2f,%.0f,%.2f,%.2f\n", r.nodes, (long long)r.unknowns,
-                   n ? 0.49 : 0.45, threads, solve_outcome_text((solve_outcome)r.outcome), r.iterations, r.cg,
-                   r.factorisations, r.took.wall_s, r.took.cpu_s, (double)used.ru_maxrss / 1024,
+            printf("%d,%lld,%.2f,%d,%s,%d,%d,%d,%.2f,%.2f,%.0f,%.2f,%.2f\n", r.nodes, (long long)r.unknowns, nu,
+                   threads, solve_outcome_text((solve_outcome)r.outcome), r.iterations, r.cg, r.factorisations,
+                   r.took.wall_s, r.took.cpu_s, (double)used.ru_maxrss / 1024,
                    k ? log(r.took.wall_s / first.took.wall_s) / more : 0,
                    k ? log(r.took.cpu_s / first.took.cpu_s) / more : 0);
         }

@@ -1,11 +1,13 @@
 /* What a plan costs on a prepared case, in linear solves (see yardstick.h) of the same tissue. Prints CSV.
- *   head CASE PLAN [threads, default 1]
- * Ways: off (no contact), bones (predict's default), each cold, and bones-replan: every moved segment 1 mm further,
- * from the solution before. All tissue is solved for, to 1e-6; the prepared case's bones are made ready beforehand. */
+ *   head CASE PLAN [threads, default 1] [WAY...]
+ * Ways: off (no contact), bones (predict's default), each cold, and bones-replan, after bones: every moved segment 1 mm
+ * further, from the solution before, as a live prediction goes on. Named alone: lips, cold. All tissue is solved for,
+ * to 1e-6; the prepared case's bones are made ready beforehand. */
 #include "app/planner/predict/prediction.h"
 #include "geometry/parallel.h"
 #include "geometry/vec.h"
 #include "tests/bench/yardstick.h"
+#include <string.h>
 
 typedef struct work {
     case_file c;
@@ -26,8 +28,9 @@ static void tell(const work *w, const char *way, const equilibrium *q, spent too
     fflush(stdout);
 }
 
-static void run(work *w, contact_kind kind, bool again)
+static void run(work *w, contact_kind kind)
 {
+    static const char *const name[] = {[CONTACT_OFF] = "off", [CONTACT_BONES] = "bones", [CONTACT_LIPS] = "lips"};
     err e = {0};
     equilibrium next;
     prediction made;
@@ -47,14 +50,16 @@ static void run(work *w, contact_kind kind, bool again)
         give_up(&e);
     spent took = time_since(begin);
     took = (spent){took.wall_s + ready.wall_s, took.cpu_s + ready.cpu_s};
-    tell(w, kind == CONTACT_OFF ? "off" : "bones", &made.solve, took, one);
-    if (again && made.solve.outcome == SOLVED) {
+    tell(w, name[kind], &made.solve, took, one);
+    if (kind == CONTACT_BONES && made.solve.outcome == SOLVED) {
+        rigid from[SEGMENT_COUNT];
+        memcpy(from, setup.problem.motion, sizeof from);
         for (int s = 0; s < SEGMENT_COUNT; s++) {
             double length = vec_norm(setup.problem.motion[s].t);
             if (length > 0) vec_scale(setup.problem.motion[s].t, 1 + 1 / length, setup.problem.motion[s].t);
         }
         begin = time_now();
-        if (!solver_solve(t, setup.problem.motion, made.solve.xyz, &setup.params, &next, &e)) give_up(&e);
+        if (!solver_follow(t, from, setup.problem.motion, made.solve.xyz, &setup.params, &next, &e)) give_up(&e);
         tell(w, "bones-replan", &next, time_since(begin), one);
         equilibrium_free(&next);
     }
@@ -78,8 +83,13 @@ int main(int argc, char **argv)
     w.asked.load_steps = w.plan.load_steps;
     puts("nodes,tets,unknowns,way,outcome,iterations,factorisations,cg,touching,depth_mm,wall_s,cpu_s,linear_wall_s,"
          "linear_cpu_s,wall_ratio,cpu_ratio");
-    run(&w, CONTACT_OFF, false);
-    run(&w, CONTACT_BONES, true);
+    static char *usual[] = {"off", "bones"};
+    char **way = argc > 4 ? argv + 4 : usual;
+    for (int k = 0; k < (argc > 4 ? argc - 4 : 2); k++) {
+        contact_kind kind;
+        if (!contact_kind_find(way[k], &kind)) return 2;
+        run(&w, kind);
+    }
     bone_shapes_free(&w.bones);
     prepared_free(&w.p);
     return 0;
