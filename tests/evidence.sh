@@ -109,6 +109,12 @@ verification() {
 failures() {
     if grep -q '^status 0$' "$work/physics.log"; then echo "all within what the tests allow"; else echo "**a physics test failed**"; fi
 }
+depth_table() {
+    echo "| head | plan | share | ended | deep, mm | area, mm2 | nodes through bone | least J | tets inside out | iterations / factors | CPU s |"
+    echo "|---|---|---|---|---|---|---|---|---|---|---|"
+    awk -F, '$1 != "case" { printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s / %s | %s |\n", $1, $2, $3, $4, $5, $6, $8, $9, $10, $11, $12, $13
+        rows++; bad += $17 != "ok" } END { printf "\n%d of %d rows are as they should be.\n", rows - bad, rows }' "$1"
+}
 calculix_short() {
     ls "$work"/calculix_*.csv >/dev/null 2>&1 || return 0
     awk -F, '$8 == "solved" { if (!n++ || $13 < low) low = $13; if ($13 > high) high = $13; if ($14 > off) off = $14; if ($1 > most) most = $1 }
@@ -209,6 +215,29 @@ CalculiX's tolerance and the six digits that it prints.
 
 END
     calculix
+    if [ -f "$work/contact_table.md" ]; then # of bench/contact_table.sh
+        cat <<'END'
+
+## What contact costs
+
+`sh tests/bench/contact_table.sh -o BENCH_HEAD`, with `GNATHOS_DATA` naming the folder of the scans: ratios of processor time on
+one thread, each from one run, beside their goals. *L* is one linear solve of the same tissue, the least of three.
+
+END
+        cat "$work/contact_table.md"
+    fi
+    if [ -f "$work/contact_depth.csv" ]; then # of nightly/contact_depth.sh
+        cat <<'END'
+
+## Tissue in bone
+
+`sh tests/nightly/contact_depth.sh`: fourteen plans on three heads, with contact. *Share*: how much of a harder plan no limit stops.
+*Deep*: farther in bone or tooth than at rest, by exact distances at the nodes of the tissue's surface; at most 0.1 mm counts
+as none.
+
+END
+        depth_table "$work/contact_depth.csv"
+    fi
     for folder; do
         name=$(basename "$folder")
         study=$work/$name.study
