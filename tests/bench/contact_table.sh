@@ -1,22 +1,25 @@
 #!/bin/sh
-# contact_table.sh [-w WORK] [-o OLD_BENCH_HEAD] [ROW...]: what contact costs, as ratios of processor time in one run on one thread,
-# beside their goals. Prints a table of markdown; the runs' own tables go to WORK (contact_table in the build folder).
+# contact_table.sh [-w WORK] [-m "MM..."] [-o OLD_BENCH_HEAD] [ROW...]: what contact costs, as ratios of processor time in one
+# run on one thread, beside their goals. Prints a table of markdown; the runs' own tables go to WORK (contact_table in the
+# build folder).
 #   phantom  the phantom's mandible advanced by 6 mm, meshed at 3, 2 and 1.4 mm: cold, and 1 mm further (bench_head)
 #   lips     the same with lips that part and meet, at 3 mm
 #   block    a block on a plane, beside CalculiX where ccx is there (bench_peer)
 #   growth   of time with size, up to 978 thousand unknowns (bench_growth; 5 GB)
 #   prepare  the whole of it against meshing alone, phantom (gnathos prepare --json)
 #   predict  all but the solve against the solve, on the prepared phantom (gnathos predict)
-# Without rows: all. -o: bench_head of an older build, run on the finest phantom mesh. What cannot be made (no
-# GNATHOS_DATA, no ccx, no older build) is named in the table. Cases in WORK are made once; runs are made each time.
+# Without rows: all. -m: these meshes of the phantom alone, mm. -o: bench_head of an older build, run on the last of them.
+# What cannot be made (no GNATHOS_DATA, no ccx, no older build) is named in the table. Cases in WORK are made once; runs
+# are made each time.
 set -eu
 export LC_ALL=C
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${GNATHOS_BUILD:-$root/build}
-work=$build/contact_table old=
-while getopts w:o: option; do
+work=$build/contact_table old= meshes="3 2 1.4"
+while getopts w:m:o: option; do
     case $option in
     w) work=$OPTARG ;;
+    m) meshes=$OPTARG ;;
     o) old=$OPTARG ;;
     *) exit 2 ;;
     esac
@@ -32,7 +35,8 @@ done
 mkdir -p "$work"
 work=$(cd "$work" && pwd)
 gnathos=$build/app/gnathos bench=$build/tests/bench plan=$root/tests/cli/plans/mandible_advance.json
-cmake --build "$build" --target gnathos bench_head bench_peer bench_growth >"$work/build.log" 2>&1 || { cat "$work/build.log" >&2; exit 1; }
+cmake --build "$build" --target gnathos bench_head bench_peer bench_growth >"$work/build.log" 2>&1 ||
+    { cat "$work/build.log" >&2; exit 1; }
 data=${GNATHOS_DATA:-}/phantom_head_ct
 have_data() { [ -f "$data/skin.ply" ]; }
 
@@ -62,11 +66,11 @@ over() {
 
 phantom_rows() {
     if ! have_data; then missing "phantom" "no phantom_head_ct in GNATHOS_DATA" "" ""; return; fi
-    for mm in 3 2 1.4; do
+    for mm in $meshes; do
         phantom_at $mm
         file=$work/head_$mm.csv
         "$bench/bench_head" "$folder" "$plan" 1 >"$file" 2>"$work/head_$mm.log"
-        case $mm in 3) good=2.5 first=off ;; 2) good=2 ;; *) good=1.5 ;; esac
+        case $mm in 3) good=2.5 ;; 2) good=2 ;; *) good=1.5 ;; esac
         size="$(($(value "$file" off unknowns) / 1000))k unknowns"
         row "cold with bones : cold without, phantom $size" "$(over "$file" bones off)" $good 1.5
         row "re-plan by 1 mm : cold with bones, $size" "$(over "$file" bones-replan bones)" 0.25 0.1
