@@ -102,14 +102,14 @@ lips_rows() {
 block_rows() {
     "$bench/bench_peer" - 0.05 16 20 >"$work/block.csv" 2>"$work/block.log"
     awk -F, 'NR > 1 { printf "| block on plane, %dk unknowns, in L | %s (%s iterations, %s factorisations%s) | 3 | 2 |\n",
-        $2 / 1000, $13, $6, $7, $5 == "solved" ? "" : ", " $5 }' "$work/block.csv"
+        $2 / 1000, $12, $6, $7, $5 == "solved" ? "" : ", " $5 }' "$work/block.csv"
     if ! command -v ccx >/dev/null; then missing "block beside CalculiX" "no program ccx" "1.5; 5" "1; 10"; return; fi
     mkdir -p "$work/ccx"
     "$bench/bench_peer" "$work/ccx" 0.003 5 8 >"$work/peer.csv" 2>"$work/peer.log"
-    awk -F, '$3 == "gnathos" { n = $6; cpu = $11; force = $14; off = $16 }
+    awk -F, '$3 == "gnathos" { n = $6; cpu = $10; force = $13; off = $15 }
         $3 == "CalculiX" && $5 != "solved" { printf "| block, %d nodes, beside CalculiX | not made: CalculiX %s | 1.5; 5 | 1; 10 |\n", $1, $5 }
         $3 == "CalculiX" && $5 == "solved" { printf "| block, %d nodes, depth 0.003 mm: iterations : CalculiX'\''s; CPU of CalculiX : ours | %.1f (%d : %d); %.1f (%.2g mm apart, force %.2f %%) | 1.5; 5 | 1; 10 |\n",
-            $1, n / $6, n, $6, $11 / cpu, off, 100 * (force / $14 - 1) }' "$work/peer.csv"
+            $1, n / $6, n, $6, $10 / cpu, off, 100 * (force / $13 - 1) }' "$work/peer.csv"
 }
 
 growth_rows() {
