@@ -1,9 +1,10 @@
 /* contact: tissue against bone, and lip against lip.
  *
- * A bone is a shape, a smooth signed distance d(x) given from outside. A node of area A has the
- * energy  A k C (tau - d)^3  where d < tau, else none; tau = min(activation, gap at rest): tissue that lies
- * on a bone at rest feels nothing until it comes nearer than it was, so a plan that moves nothing moves
- * nothing. No friction; no suction. C is 1 but at the rim of a lip.
+ * A bone is a shape, a smooth signed distance d(x) given from outside, which is off at sharp edges: where a solve
+ * leaves a node deeper by the exact one, d is less by what it was off there (contact_depth.c), and the solve goes on. A
+ * node of area A has the energy  A k C (tau - d)^3  where d < tau, else none; tau = min(activation, gap at rest):
+ * tissue that lies on a bone at rest feels nothing until it comes nearer than it was, so a plan that moves nothing
+ * moves nothing. No friction; no suction. C is 1 but at the rim of a lip.
  *
  * Two kinds. held: sliding and paired nodes keep in touch as their attachments say; a sliding node follows
  * the level set of its own bone's distance on which it lay at rest, not the tangent plane there: before each
@@ -38,6 +39,9 @@ typedef struct contact_params {
     double pressure_kpa;    /* infinity: Young's modulus of the stiffest tissue */
     double depth_limit_mm;  /* deeper contacts are stiffened and solved again; refused as a result */
     int max_stiffenings;    /* of all contacts that are too deep, each by 4 */
+    double exact_limit_mm;  /* where a bone's exact distance tells of deeper contacts, the smooth one is corrected and
+                               the  load solved again */
+    int max_corrections;    /* so often */
     double facing_cos;      /* samples of a lip whose normal is farther from the node's own than this are not asked */
     double slide_mm;        /* how far lips may slide before their coupling leaves the matrix (not the forces) */
     double free_rel_tol;    /* phase A, without contact: tolerance and */
@@ -56,6 +60,8 @@ typedef struct bone_shape {
      * the unit normal there; false: it does not. */
     bool (*leave)(const void *context, const double x[3], const double direction[3], double reach_mm, double hit[3],
                   double normal[3]);
+    /* The distance as it is, negative inside, where the smooth one is not exact enough to be the last word; or NULL. */
+    double (*exact)(const void *context, const double x[3]);
 } bone_shape;
 
 /* Borrowed until solver_destroy. */
@@ -87,7 +93,7 @@ typedef struct contact_report {
     double bone_area_mm2, lip_area_mm2, pressure_kpa; /* of touching nodes; largest */
     double energy_uj;
     int free_iterations, contact_iterations; /* phases A and B, all loads */
-    int refreshes, stiffenings;
+    int refreshes, stiffenings, corrections;
     double refresh_change_mm;               /* of the active gaps in the last refresh */
     double slide_off_mm;                    /* farthest that the last refresh moved a sliding node back to its level */
     int32_t uncoupled;                      /* lip contacts whose coupling was not in the matrix at its last filling */

@@ -12,8 +12,9 @@
  * 1980, with the factor as initial matrix) while that is the cheaper way down. Steps are halved until the
  * energy falls enough (Armijo); where the fall is below rounding, until the residual falls. Under contact a
  * step that a few nodes would take too deep is not cut for all: those nodes give way at once, each to where
- * the tissue around it holds. A tet may invert on the way and in the result: the Stable Neo-Hookean energies
- * allow it, so it is counted, not hidden. Several equilibria can exist; the one reached depends on the load
+ * the tissue around it holds. A tet may invert on the way: the Stable Neo-Hookean energies allow it. Where the result
+ * has one that is crushed beyond least_j it is guarded, and the solve goes on; what stays inverted is counted, not
+ * hidden. Several equilibria can exist; the one reached depends on the load
  * path, which is recorded; src/solve/load_path.h and load.h draw what comes when. */
 #pragma once
 #include "sim/assemble.h"
@@ -81,7 +82,9 @@ typedef struct solve_params {
     double rel_tol;    /* of the residual with the bones moved and the free tissue carried rigidly; the last step
                           must be small too, below sqrt(rel_tol) of how far the bones move or the targets draw */
     double intermediate_rel_tol; /* the same before the last load */
-    double max_step_mm;          /* longest move of an unknown in one iteration */
+    double least_j; /* of the volume at rest that each tet keeps in the result, in (0, 0.5], see src/elastic/crush.h; 0:
+                       tets may turn inside out */
+    double max_step_mm; /* longest move of an unknown in one iteration */
     enum predictor predictor;
     enum projection projection; /* CLAMP or ABS */
     enum linear_kind linear;
@@ -118,6 +121,7 @@ typedef struct equilibrium {
     int iterations, factorisations, cg_iterations, preconditioners, loads, halvings;
     double energy_uj, residual_mn, reference_mn, tolerance_mn;
     deformation_extremes extremes;
+    int32_t crushed_tets;   /* that were guarded against turning inside out */
     int32_t stuck_node;     /* with the largest force that is left on unknowns, where not SOLVED, else -1 */
     contact_report contact; /* its energy is in energy_uj */
     double segment_force_mn[SEGMENT_COUNT][3]; /* with which each bone holds the tissue */

@@ -6,10 +6,17 @@
 #include "geometry/rest_gap.h"
 #include "sim/contact.h"
 
+/* What a shape asks. */
+typedef struct bone_sight {
+    const distance_field *field;
+    const nearest *tree;
+} bone_sight;
+
 typedef struct bone_shapes {
     segment_trees trees;                  /* with the skin */
     distance_field *field[SEGMENT_COUNT]; /* NULL: the case has no such segment */
-    bone_shape shape[SEGMENT_COUNT];      /* over the fields */
+    bone_sight sight[SEGMENT_COUNT];
+    bone_shape shape[SEGMENT_COUNT]; /* over them */
     landmark_carriers carriers;
     rest_gap gap; /* of the tissue */
 } bone_shapes;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double least_j = 0.05; /* of any tet's volume: below, it may turn inside out */
+
 prediction_options prediction_options_default(void)
 {
     return (prediction_options){.contact = CONTACT_BONES,
@@ -31,6 +33,7 @@ static void set_params(const prediction_options *o, const task *watch, predictio
 {
     s->params = solve_params_default();
     s->params.rel_tol = o->rel_tol;
+    s->params.least_j = least_j;
     if (o->load_steps > 0) s->params.load_steps = o->load_steps;
     s->params.interrupted = was_interrupted;
     s->params.progress = tell_iteration;

@@ -41,6 +41,7 @@ static const record_row contact_row[] = {
     TOUCH(refreshes, "refreshes", NULL, "times that it was looked up anew what touches what"),
     TOUCH(refresh_change_mm, "last_refresh_mm", "mm", "change of the gaps in the last of them"),
     TOUCH(stiffenings, "stiffenings", NULL, "times that contacts were made stiffer"),
+    TOUCH(corrections, "corrections", NULL, "times that the smooth distance of a bone was corrected by the exact one"),
     TOUCH(uncoupled, "uncoupled", NULL, "contacts of the lips that the last matrix did not hold"),
 };
 static const record_table contact_table = {.title = "Contact", RECORD_ROWS(contact_row)};
@@ -88,6 +89,7 @@ static const record_row solve_row[] = {
      .help = "with which each bone holds the tissue, LPS"},
     ROW(equilibrium, imbalance, "force_imbalance", NULL, "their sum over the sum of their nodes' norms"),
     ROW(equilibrium, extremes.inverted_count, "inverted_tets", NULL, "tetrahedra turned inside out"),
+    ROW(equilibrium, crushed_tets, "crushed_tets", NULL, "tetrahedra that were guarded against turning inside out"),
     ROW(equilibrium, extremes.min_j, "min_J", NULL, "smallest volume ratio of a tetrahedron"),
     ROW(equilibrium, extremes.min_j_tet, "min_J_tet", NULL, "which one that is"),
     ROW(equilibrium, unknown_count, "unknowns", NULL, "numbers solved for"),

@@ -16,6 +16,7 @@ void contact_restart(contact *c)
     int32_t left_out = c->report.left_out;
     for (int32_t l = 0; l < c->link_count; l++) {
         c->link[l].stiffening = 1;
+        c->link[l].off_mm = 0;
         c->link[l].turns = 0;
         if (c->link[l].guard) c->link[l].near = false;
     }
@@ -68,7 +69,7 @@ double contact_bone_gap(const contact *c, const contact_link *link, const double
         if (hess) memset(hess, 0, 9 * sizeof *hess);
         return link->base + vec_dot(link->m, at);
     }
-    return shape->distance(shape->context, at, grad, hess);
+    return shape->distance(shape->context, at, grad, hess) - link->off_mm;
 }
 
 /* Energy of one link; fills what belongs to the last evaluation. */
@@ -209,28 +210,14 @@ static void stiffness_body(int64_t begin, int64_t end, void *context)
     }
 }
 
-/* Block of nodes u <= v, NULL where the pattern has none. */
-static double *block_of(const assembly *a, const int32_t *first_edge, int32_t u, int32_t v)
+static double *block_between(const assembly *a, int32_t u, int32_t v)
 {
-    int32_t low = first_edge[u], high = first_edge[u + 1];
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (a->edge_node[2 * (size_t)middle + 1] < v)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < first_edge[u + 1] && a->edge_node[2 * (size_t)low + 1] == v ? a->edge_block + 9 * (size_t)low : NULL;
-}
-
-static double *block_between(const assembly *a, const int32_t *first_edge, int32_t u, int32_t v)
-{
-    return u < v ? block_of(a, first_edge, u, v) : block_of(a, first_edge, v, u);
+    return u < v ? assembly_block(a, u, v) : assembly_block(a, v, u);
 }
 
 /* w (m.x_i - sum weight m.x_k)^2 / 2. Where a pair is missing in the pattern, the diagonal bound
  * w (m.x_i)^2 + w sum weight (m.x_k)^2 instead: still positive, only slower. */
-static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, int32_t i, const contact_link *link)
+static void add_lip(contact *c, const assembly *a, int32_t i, const contact_link *link)
 {
     const int32_t *name = c->lip_node[link->collider - COLLIDER_UPPER];
     double w = 6 * stiffness_of(c, i, link) * link->cover * link->delta;
@@ -238,19 +225,19 @@ static void add_lip(contact *c, const assembly *a, const int32_t *first_edge, in
     bool whole = true;
     for (int32_t k = 0; whole && k < link->count; k++) {
         int32_t p = name[link->sample[k]];
-        whole = block_between(a, first_edge, v, p) != NULL;
-        for (int32_t j = 0; whole && j < k; j++) whole = block_between(a, first_edge, p, name[link->sample[j]]) != NULL;
+        whole = block_between(a, v, p) != NULL;
+        for (int32_t j = 0; whole && j < k; j++) whole = block_between(a, p, name[link->sample[j]]) != NULL;
     }
     c->report.uncoupled += !whole;
-    add_outer(block_of(a, first_edge, v, v), whole ? w : 2 * w, link->m);
+    add_outer(assembly_block(a, v, v), whole ? w : 2 * w, link->m);
     for (int32_t k = 0; k < link->count; k++) {
         int32_t p = name[link->sample[k]];
         double share = link->weight[k];
-        add_outer(block_of(a, first_edge, p, p), whole ? w * share * share : 2 * w * share, link->m);
+        add_outer(assembly_block(a, p, p), whole ? w * share * share : 2 * w * share, link->m);
         if (!whole) continue;
-        add_outer(block_between(a, first_edge, v, p), -w * share, link->m);
+        add_outer(block_between(a, v, p), -w * share, link->m);
         for (int32_t j = 0; j < k; j++)
-            add_outer(block_between(a, first_edge, p, name[link->sample[j]]), w * share * link->weight[j], link->m);
+            add_outer(block_between(a, p, name[link->sample[j]]), w * share * link->weight[j], link->m);
     }
 }
 
@@ -262,20 +249,15 @@ void contact_stiffness(contact *c, const double *x, const double *force, bool ex
                        .exact = exact,
                        .shallow = is_shallow(c),
                        .block = NEW_ARRAY(double, 9 * (size_t)c->node_count)};
-    int32_t *first_edge = NEW_ARRAY(int32_t, (size_t)a->node_count + 1);
     parallel_for(c->node_count, NODE_GRAIN, stiffness_body, &job);
-    for (int32_t k = 0; k < a->edge_count; k++) first_edge[a->edge_node[2 * (size_t)k] + 1] = k + 1;
-    for (int32_t v = 0; v < a->node_count; v++)
-        first_edge[v + 1] = first_edge[v + 1] > first_edge[v] ? first_edge[v + 1] : first_edge[v];
     c->report.uncoupled = 0;
     for (int32_t i = 0; i < c->node_count; i++) {
-        double *block = block_of(a, first_edge, c->node[i], c->node[i]);
+        double *block = assembly_block(a, c->node[i], c->node[i]);
         c->around[i] = fmax(0, (block[0] + block[4] + block[8]) / 3);
         for (int k = 0; k < 9; k++) block[k] += job.block[9 * (size_t)i + (size_t)k];
         for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++)
-            if (is_lip(&c->link[l]) && c->link[l].delta > 0) add_lip(c, a, first_edge, i, &c->link[l]);
+            if (is_lip(&c->link[l]) && c->link[l].delta > 0) add_lip(c, a, i, &c->link[l]);
     }
-    free(first_edge);
     free(job.block);
 }
 

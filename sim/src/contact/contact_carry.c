@@ -13,6 +13,7 @@ void contact_resume(contact *c)
 static void take(contact_link *link, const contact_link *before)
 {
     link->stiffening = before->stiffening;
+    link->off_mm = before->off_mm;
     if (!link->guard || !before->near) return;
     link->near = true;
     link->flat = before->flat;

@@ -6,6 +6,7 @@
 
 static const double covered = 0.5; /* of C: contacts that count for the depth */
 static const double stiffening_step = 4;
+static const double asked_mm = 1; /* gap by the smooth distance of what may be deep by the exact one */
 
 bool contact_is_pinched(const contact *c, int32_t i)
 {
@@ -36,6 +37,34 @@ bool contact_stiffen(contact *c)
                 any = true;
             }
     c->report.stiffenings += any;
+    return any;
+}
+
+/* By how much the smooth distance has to be less for the node, at x, to be as deep as it is; 0: it is not too deep. */
+static double find_off(const contact *c, int32_t i, const contact_link *link, const double *x)
+{
+    const bone_shape *shape = is_lip(link) ? NULL : c->setup.shape[link->collider];
+    double limit = c->setup.params.exact_limit_mm, at[3];
+    if (!shape || !shape->exact || !link->near || link->guard || link->flat) return 0;
+    if (!(link->gap < asked_mm) || contact_is_pinched(c, i)) return 0;
+    rigid_apply(&c->back[link->collider], x + 3 * (size_t)c->node[i], at);
+    double exact = shape->exact(shape->context, at);
+    if (!(exact < -limit)) return 0;
+    double rest = shape->exact(shape->context, c->rest_xyz + 3 * (size_t)c->node[i]);
+    return exact < fmin(0, rest) - limit ? fmax(0, link->gap - exact) : 0;
+}
+
+bool contact_correct(contact *c, const double *x)
+{
+    bool any = false;
+    for (int32_t i = 0; i < c->node_count; i++)
+        for (int32_t l = c->link_start[i]; l < c->link_start[i + 1]; l++) {
+            double off = find_off(c, i, &c->link[l], x);
+            if (!(off > 0)) continue;
+            c->link[l].off_mm += off;
+            any = true;
+        }
+    c->report.corrections += any;
     return any;
 }
 

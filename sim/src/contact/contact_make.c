@@ -13,6 +13,8 @@ contact_params contact_params_default(void)
                             .pressure_kpa = HUGE_VAL,
                             .depth_limit_mm = 0.1,
                             .max_stiffenings = 8,
+                            .exact_limit_mm = 0.1,
+                            .max_corrections = 4,
                             .facing_cos = -0.25,
                             .slide_mm = 5,
                             .free_rel_tol = 1e-2,
@@ -31,12 +33,14 @@ static bool check_params(const contact_params *p, err *e)
         return err_set(e, ERR_INPUT, "contact pressure_kpa must be > 0, got %g", p->pressure_kpa);
     if (!(p->depth_limit_mm > 0))
         return err_set(e, ERR_INPUT, "contact depth_limit_mm must be > 0, got %g", p->depth_limit_mm);
+    if (!(p->exact_limit_mm > 0))
+        return err_set(e, ERR_INPUT, "contact exact_limit_mm must be > 0, got %g", p->exact_limit_mm);
     if (!(p->facing_cos >= -1 && p->facing_cos < 1))
         return err_set(e, ERR_INPUT, "contact facing_cos must lie in [-1, 1), got %g", p->facing_cos);
     if (!(p->slide_mm >= 0)) return err_set(e, ERR_INPUT, "contact slide_mm must be >= 0, got %g", p->slide_mm);
     if (!(p->free_rel_tol > 0 && p->free_rel_tol < 1))
         return err_set(e, ERR_INPUT, "contact free_rel_tol must lie between 0 and 1, got %g", p->free_rel_tol);
-    if (p->free_iterations < 0 || p->refresh_iterations < 0 || p->max_stiffenings < 0)
+    if (p->free_iterations < 0 || p->refresh_iterations < 0 || p->max_stiffenings < 0 || p->max_corrections < 0)
         return err_set(e, ERR_INPUT, "contact iteration limits must be >= 0");
     return true;
 }

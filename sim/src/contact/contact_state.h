@@ -19,6 +19,7 @@ typedef struct contact_link {
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
+    double off_mm; /* by so much the bone's smooth distance is too large about the node */
     /* frozen at refresh */
     bool lost;                    /* given up, see contact_report */
     double cover;                 /* C(S) of a lip, 1 of a bone */
@@ -63,7 +64,7 @@ void contact_destroy(contact **c);
  * lips. */
 attach_map contact_loosened(const attach_map *attach, const contact_setup *setup);
 
-/* Forgets stiffenings and counts of the last plan. */
+/* Forgets stiffenings, corrections and counts of the last plan. */
 void contact_restart(contact *c);
 /* Forgets the counts of the last plan only: guards and stiffenings go on with their bones. */
 void contact_resume(contact *c);
@@ -117,6 +118,9 @@ double contact_refresh_change(const contact *c);
 bool contact_is_pinched(const contact *c, int32_t i);
 /* Stiffens what is deeper than the limit, for contact_yield to follow; false: nothing is. */
 bool contact_stiffen(contact *c);
+/* Corrects the distance where by the exact one a node at x[3*nodes], which is that of the last contact_energy, is
+ * deeper than exact_limit_mm; false: nowhere. */
+bool contact_correct(contact *c, const double *x);
 /* Norm of all contact forces of the last contact_energy, mN. */
 double contact_force(const contact *c);
 /* Of the last contact_energy. */

@@ -147,6 +147,21 @@ void assembly_matrix(assembly *a, const boundary *b)
     }
 }
 
+double *assembly_block(const assembly *a, int32_t u, int32_t v)
+{
+    int32_t low = 0, high = a->edge_count; /* pairs ascend */
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        const int32_t *pair = a->edge_node + 2 * (size_t)middle;
+        if (pair[0] < u || (pair[0] == u && pair[1] < v))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const int32_t *pair = a->edge_node + 2 * (size_t)low;
+    return low < a->edge_count && pair[0] == u && pair[1] == v ? a->edge_block + 9 * (size_t)low : NULL;
+}
+
 void assembly_multiply(const assembly *a, const double *d, double *out)
 {
     memset(out, 0, 3 * (size_t)a->node_count * sizeof *out);

@@ -46,6 +46,8 @@ bool solve_params_check(const solve_params *p, err *e)
         return err_set(e, ERR_INPUT, "rel_tol must lie between 0 and 1, got %g", p->rel_tol);
     if (!(p->intermediate_rel_tol > 0 && p->intermediate_rel_tol < 1))
         return err_set(e, ERR_INPUT, "intermediate_rel_tol must lie between 0 and 1, got %g", p->intermediate_rel_tol);
+    if (!(p->least_j >= 0 && p->least_j <= 0.5))
+        return err_set(e, ERR_INPUT, "least_j must lie in [0, 0.5], got %g", p->least_j);
     if (!(p->max_step_mm > 0)) return err_set(e, ERR_INPUT, "max_step_mm must be > 0, got %g", p->max_step_mm);
     if (p->projection != PROJECTION_CLAMP && p->projection != PROJECTION_ABS)
         return err_set(e, ERR_INPUT, "projection must be clamp or abs");

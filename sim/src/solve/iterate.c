@@ -1,14 +1,24 @@
 /* The iteration of one load: what contact asks for before each step, and when it ends. */
+#include "geometry/mem.h"
 #include "geometry/vec.h"
 #include "sim/src/solve/descent.h"
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 /* What was seen of contact since the iteration began. */
 typedef struct contact_watch {
     bool fresh; /* colliders are those of the present iterate */
-    int stiffenings;
+    int stiffenings, corrections;
 } contact_watch;
+
+/* Tets guarded against being crushed. */
+typedef struct crush_watch {
+    int times, steps; /* that guards were set or stiffened; iterations since the first */
+    double *x;        /* [3*nodes] where the first was set; NULL: none was */
+} crush_watch;
+
+enum { MOST_CRUSHED = 8, MOST_GUARDED = 80 }; /* times and steps before guards are given up */
 
 typedef enum contact_verdict { CONTACT_GO_ON, CONTACT_LOOK_AGAIN, CONTACT_TOO_DEEP } contact_verdict;
 
@@ -48,11 +58,17 @@ static bool is_solved(descent *d)
     return d->residual <= l->tolerance_mn && !(l->last_step_mm > l->settled_mm);
 }
 
+/* Good enough to tell what it lacks? */
+static bool is_nearly_solved(descent *d)
+{
+    return is_solved(d) || d->residual <= d->params->intermediate_rel_tol * d->out->reference_mn;
+}
+
 /* Guards against passing through a bone, at an equilibrium good enough to tell. False: none is missing. */
 static bool add_guards(descent *d)
 {
     if (!d->t->touch->setup.held || d->load.task.load < 1) return false;
-    if (!is_solved(d) && d->residual > d->params->intermediate_rel_tol * d->out->reference_mn) return false;
+    if (!is_nearly_solved(d)) return false;
     if (!contact_guard(d->t->touch, d->here.x)) return false;
     point_measure(d);
     direct_forget(&d->direct);
@@ -67,8 +83,13 @@ static contact_verdict look_at_contact(descent *d, int iteration, contact_watch 
         iterate_refresh(d);
         w->fresh = true;
     }
-    if (is_solved(d) && contact_stiffen(c)) {
-        if (++w->stiffenings > c->setup.params.max_stiffenings) return CONTACT_TOO_DEEP;
+    bool solved = is_solved(d), stiffened = solved && contact_stiffen(c);
+    bool corrected = solved && d->load.task.load == 1 && w->corrections < c->setup.params.max_corrections &&
+                     contact_correct(c, d->here.x);
+    if (stiffened && ++w->stiffenings > c->setup.params.max_stiffenings) return CONTACT_TOO_DEEP;
+    if (corrected) w->corrections++;
+    if (stiffened || corrected) {
+        if (corrected) point_measure(d);
         point_yield(d, &d->here);
         point_measure(d);
         direct_forget(&d->direct);
@@ -76,6 +97,40 @@ static contact_verdict look_at_contact(descent *d, int iteration, contact_watch 
     if (!w->fresh || !add_guards(d)) return CONTACT_GO_ON;
     w->fresh = false;
     return CONTACT_LOOK_AGAIN;
+}
+
+/* Tets that are crushed at the equilibrium of the whole load are guarded: it is none then. */
+static bool guard_crushed(descent *d, crush_watch *w)
+{
+    solver *t = d->t;
+    if (d->load.phase != LOAD_WHOLE || d->load.task.load < 1 || w->times == MOST_CRUSHED || !is_nearly_solved(d))
+        return false;
+    uint8_t *fixed = NEW_ARRAY(uint8_t, t->b.node_count);
+    for (size_t v = 0; v < (size_t)t->b.node_count; v++)
+        fixed[v] = t->b.unknown[3 * v] < 0 && t->b.unknown[3 * v + 1] < 0 && t->b.unknown[3 * v + 2] < 0;
+    bool any = crush_stiffen(&t->crushed, fixed, is_solved(d), d->here.x);
+    free(fixed);
+    if (!any) return false;
+    if (w->times++ == 0) w->x = COPY_ARRAY(double, d->here.x, 3 * (size_t)t->b.node_count);
+    point_measure(d);
+    direct_forget(&d->direct);
+    solver_forget_blocks(t);
+    return true;
+}
+
+/* Back to where the first guard was set, without any; they stay away. */
+static void give_up_guards(descent *d, crush_watch *w)
+{
+    solver *t = d->t;
+    crush_begin(&t->crushed, 0);
+    if (load_touching(&d->load)) contact_follow(t->touch, t->attach, &t->b, w->x);
+    boundary_project(&t->b, w->x, d->here.z);
+    boundary_place(&t->b, d->here.z, d->here.x);
+    if (load_touching(&d->load)) contact_refresh(t->touch, d->here.x);
+    point_measure(d);
+    d->load.last_step_mm = 0;
+    direct_forget(&d->direct);
+    solver_forget_blocks(t);
 }
 
 /* Counts alone, so that the same solve ends at the same iterate on any machine. */
@@ -112,7 +167,7 @@ static void count(descent *d)
         d->out->contact.free_iterations++;
 }
 
-bool iterate(descent *d, int max_iterations, solve_outcome *outcome, err *e)
+static bool run(descent *d, int max_iterations, crush_watch *crushed, solve_outcome *outcome, err *e)
 {
     contact_watch watch = {0};
     d->load.energy_noise_uj = assembly_energy_noise(&d->t->a, d->here.x);
@@ -125,6 +180,7 @@ bool iterate(descent *d, int max_iterations, solve_outcome *outcome, err *e)
             *outcome = STOPPED_PENETRATION;
             return true;
         }
+        if (guard_crushed(d, crushed)) continue;
         if (ends(d, iteration, max_iterations, outcome)) return true;
         step_taken s = {0};
         bool ok = true;
@@ -141,5 +197,22 @@ bool iterate(descent *d, int max_iterations, solve_outcome *outcome, err *e)
         if (d->load.way == BY_FACTORS && d->params->reuse_factor) direct_remember(d);
         count(d);
         result_record(d, iteration, &s);
+        if (crushed->x && ++crushed->steps > MOST_GUARDED) {
+            *outcome = STOPPED_MAX_ITERATIONS;
+            return true;
+        }
     }
+}
+
+bool iterate(descent *d, int max_iterations, solve_outcome *outcome, err *e)
+{
+    crush_watch crushed = {0};
+    bool ok = run(d, max_iterations, &crushed, outcome, e);
+    if (ok && crushed.x && *outcome != SOLVED && !outcome_is_final(*outcome)) {
+        give_up_guards(d, &crushed);
+        crush_watch none = {.times = MOST_CRUSHED};
+        ok = run(d, max_iterations, &none, outcome, e);
+    }
+    free(crushed.x);
+    return ok;
 }

@@ -111,6 +111,7 @@ void result_fill(descent *d, solve_outcome outcome, const linear_stats *before)
     q->residual_mn = d->residual;
     q->tolerance_mn = d->load.tolerance_mn;
     q->extremes = assembly_extremes(&t->a, q->xyz, true);
+    q->crushed_tets = t->crushed.count;
     q->energy_uj = term_energy(&t->terms, true, d->here.x, d->here.force);
     if (t->touch) report_contact(d, q);
     q->stuck_node = outcome == SOLVED ? -1 : find_stuck(&t->b, d->here.g);

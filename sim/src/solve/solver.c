@@ -44,7 +44,9 @@ bool solver_create(const equilibrium_problem *problem, int blas_threads, solver 
         solver_destroy(&t);
         return false;
     }
+    t->crushed.a = &t->a;
     term_add(&t->terms, elastic_term(&t->a));
+    term_add(&t->terms, crush_term(&t->crushed));
     if (t->touch) term_add(&t->terms, contact_term(t->touch));
     if (problem->targets) {
         t->pull = target_pull_make(problem->targets, problem->mesh, &t->a);
@@ -77,6 +79,7 @@ void solver_destroy(solver **t)
     target_pull_free(&(*t)->pull);
     contact_destroy(&(*t)->touch);
     attach_map_free(&(*t)->loosened);
+    crush_free(&(*t)->crushed);
     assembly_free(&(*t)->a);
     boundary_free(&(*t)->b);
     free(*t);
@@ -177,6 +180,7 @@ bool solver_solve(solver *t, const rigid motion[SEGMENT_COUNT], const double *st
                      .prepare_s = t->prepare_s};
     descent d;
     descent_make(&d, t, params, &q);
+    crush_begin(&t->crushed, params->least_j);
     if (t->touch && t->goes_on) contact_resume(t->touch);
     if (t->touch && !t->goes_on) contact_restart(t->touch);
     if (t->pull) { /* drawn to other places than before, perhaps: of the matrix only the preconditioner will do */

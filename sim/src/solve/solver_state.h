@@ -4,6 +4,7 @@
 #include "sim/solver.h"
 #include "sim/src/actuation/target_term.h"
 #include "sim/src/contact/contact_state.h"
+#include "sim/src/elastic/crush.h"
 #include "sim/src/energy/term.h"
 #include "sim/src/linear/multigrid.h"
 #include "sim/src/linear/node_blocks.h"
@@ -16,6 +17,7 @@ struct solver {
     target_pull *pull; /* NULL: no targets */
     boundary b;
     assembly a;
+    crush crushed;
     term_list terms;
     int blas_threads;
     linear *l; /* NULL until a matrix is to be factorised */
