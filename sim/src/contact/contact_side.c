@@ -4,7 +4,9 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double deep_mm = 0.3;    /* in a shape: a node whose way back is not found is given up from here on */
+static const double deep_mm = 0.3; /* in a shape, as far as its surface may be from a node that lies on it */
+static const double given_up_mm =
+    1.5;                              /* in a shape: before, a node whose way back is not found leaves by the nearest */
 static const double backwards = -0.2; /* cosine to the way back, of a nearest surface that is the wrong one */
 static const double least_mm = 0.5;   /* of a move that can lead right through a bone */
 static const double behind_mm = 0.3;  /* the bone's face on the way back, a guard's plane lies */
@@ -55,7 +57,7 @@ void contact_find_side(const contact *c, int32_t i, contact_link *link, const do
     link->flat = wrong && find_way_back(c, i, link->collider, at, facing, hit, link->m);
     if (link->flat) link->base = -vec_dot(link->m, hit);
     link->turns += link->flat != before;
-    link->lost = wrong && !link->flat && d < -deep_mm;
+    link->lost = wrong && !link->flat && d < -given_up_mm;
     if (link->flat &&
         link->turns > MOST_TURNS) { /* it would turn for ever: the plane stays, and the bone's right side */
         if (guard && !guard->near) raise_guard(guard, facing, hit, 0);
