@@ -17,6 +17,7 @@ static void take(contact_link *link, const contact_link *before)
     if (!link->guard || !before->near) return;
     link->near = true;
     link->flat = before->flat;
+    link->at_face = before->at_face;
     link->base = before->base;
     vec_copy(before->m, link->m);
 }

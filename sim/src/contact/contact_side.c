@@ -40,8 +40,19 @@ static bool find_way_back(const contact *c, int32_t i, int32_t bone, const doubl
 static void raise_guard(contact_link *guard, const double facing[3], const double hit[3], double behind)
 {
     guard->near = guard->flat = true;
+    guard->at_face = !(behind > 0);
     vec_copy(facing, guard->m);
     guard->base = behind - vec_dot(facing, hit);
+}
+
+/* A guarded node that the bone's distance pushes out at the far side, and that lies between the two for ever: the guard
+ * alone has it, from the face of the bone on. */
+static bool is_for_guard(contact_link *guard, const double grad[3])
+{
+    if (vec_dot(grad, guard->m) > backwards * vec_norm(grad)) return false;
+    if (!guard->at_face) guard->base -= behind_mm;
+    guard->at_face = true;
+    return true;
 }
 
 void contact_find_side(const contact *c, int32_t i, contact_link *link, const double *x)
@@ -65,6 +76,7 @@ void contact_find_side(const contact *c, int32_t i, contact_link *link, const do
         link->lost = !guard;
     }
     link->near = link->flat || (d < HUGE_VAL && !link->lost && !(wrong && link->turns > MOST_TURNS));
+    if (guard && guard->near && !link->flat && link->near) link->near = !is_for_guard(guard, grad);
 }
 
 /* Outside, but its straight way there leads through the bone, and so does the way that it should be pushed.

@@ -11,11 +11,12 @@ enum { COLLIDER_UPPER = SEGMENT_COUNT, COLLIDER_LOWER, COLLIDER_COUNT }; /* afte
 typedef struct contact_link {
     int32_t collider;
     bool left_out, near;
-    bool guard; /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
-                   link before */
-    bool flat;  /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
-    bool faced; /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
-    int turns;  /* of flat, since contact_restart */
+    bool guard;   /* no contact: a plane behind which the node must not get, where `near`; of the bone of the
+                     link before */
+    bool at_face; /* a guard's plane: not inside the bone, but at its face */
+    bool flat;    /* a bone's shape is seen as the plane base + m.x: the nearest way out leads to the wrong side */
+    bool faced;   /* at rest the node lay over the lip, not beside it: if it gets deep, it is brought back */
+    int turns;    /* of flat, since contact_restart */
     double threshold_mm;  /* tau */
     double depth_from_mm; /* what depth is measured from: min(0, gap at rest) */
     double stiffening;
