@@ -80,6 +80,9 @@ void outcome_print(const outcome *o)
                "not to be trusted near there\n",
                q->extremes.inverted_count, middle[0], middle[1], middle[2], away);
     }
+    if (q->crushed_tets > 0)
+        printf("%d tets were kept from turning inside out by a pressure of their own: tissue is crushed there\n",
+               q->crushed_tets);
     judgement_print_brief(o->limits, o->patient);
     print_contact(&q->contact);
     if (!o->points) return;

@@ -85,6 +85,7 @@ export function evidence(outcome) {
                 ["Residual force", `${scientific(s.relative_residual)} of the initial one`],
                 ["Balance of forces", `open by ${scientific(Math.abs(s.force_imbalance))}`],
                 ["Tets turned inside out", String(s.inverted_tets)],
+                ["Tets kept from turning inside out", String(s.crushed_tets ?? 0)],
                 ["Smallest volume ratio J", fixed(s.min_J, 2)],
                 ["Largest stretch", fixed(s.largest_stretch, 2)],
                 c.on

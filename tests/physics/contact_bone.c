@@ -139,10 +139,40 @@ static void contacts_too_deep_are_stiffened_or_not_accepted(void **state)
     touching_free(&s);
 }
 
+/* The bone is 0.3 mm higher than its smooth distance says. */
+static const double higher_mm = 0.3;
+static double exact_distance(const void *context, const double x[3])
+{
+    const known_bone *plane = context;
+    return x[2] - plane->at[2] - higher_mm;
+}
+
+static void the_exact_distance_has_the_last_word(void **state)
+{
+    (void)state;
+    for (int corrected = 0; corrected < 2; corrected++) {
+        touching s;
+        block_on_plane(&s, 0.45);
+        s.bone.at[2] = -1; /* 1 mm away at rest, 0.7 as it is */
+        s.shape.exact = exact_distance;
+        if (!corrected) s.setup.params.max_corrections = 0;
+        s.body.problem.motion[SEGMENT_DISTAL] = rigid_translation((double[]){0, 0, 2});
+        equilibrium q = solve_touching(&s, corrected ? "corrected" : "by the smooth distance");
+        double deepest = 0;
+        for (int32_t v = 0; v < q.node_count; v++)
+            if (s.body.mesh.xyz[3 * v + 2] == 0) deepest = fmax(deepest, 1 + higher_mm - q.xyz[3 * v + 2]);
+        assert_true((deepest < s.setup.params.exact_limit_mm) == (corrected == 1));
+        assert_int_equal(q.contact.corrections, corrected);
+        equilibrium_free(&q);
+        touching_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_pushes_beyond_the_activation_distance),
+        cmocka_unit_test(the_exact_distance_has_the_last_word),
         cmocka_unit_test(a_pressed_block_carries_what_elasticity_says),
         cmocka_unit_test(a_pressed_block_agrees_with_sliding_constraints),
         cmocka_unit_test(a_block_slides_and_lifts_off_without_force),

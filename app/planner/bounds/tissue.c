@@ -221,6 +221,7 @@ bool audit_read_tissue(audit *a, const void *bytes, size_t size, err *e)
 static prediction_options without_face(int load_steps)
 {
     prediction_options o = prediction_options_default();
+    o.least_j = 0; /* where the model ends is what is asked */
     o.contact = CONTACT_OFF;
     o.load_steps = load_steps;
     o.skin = o.points = o.depth = false;

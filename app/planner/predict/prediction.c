@@ -6,13 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double least_j = 0.05; /* of any tet's volume: below, it may turn inside out */
-
 prediction_options prediction_options_default(void)
 {
     return (prediction_options){.contact = CONTACT_BONES,
                                 .scene_mm = scene_params_default().tolerance_mm,
                                 .rel_tol = solve_params_default().rel_tol,
+                                .least_j = 0.05,
                                 .model = MATERIAL_SNH_LOG,
                                 .skin = true,
                                 .points = true,
@@ -33,7 +32,7 @@ static void set_params(const prediction_options *o, const task *watch, predictio
 {
     s->params = solve_params_default();
     s->params.rel_tol = o->rel_tol;
-    s->params.least_j = least_j;
+    s->params.least_j = o->least_j;
     if (o->load_steps > 0) s->params.load_steps = o->load_steps;
     s->params.interrupted = was_interrupted;
     s->params.progress = tell_iteration;

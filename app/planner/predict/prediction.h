@@ -22,6 +22,7 @@ typedef struct prediction_options {
     double scene_mm;         /* not looked at with full */
     double rel_tol;          /* of the solve, as in solve_params */
     int load_steps;          /* 0: the solver's own */
+    double least_j;          /* of the volume at rest that each tet keeps; 0: tets may turn inside out */
     material_model model;    /* of flesh; its numbers are the case's */
     double watch_more_mm;    /* nodes so much farther from bone are in the contacts as well, see plan_contact_make */
     bool skin;               /* predicted skin wanted */
