@@ -228,8 +228,8 @@ static prediction_options without_face(int load_steps)
     return o;
 }
 
-/* Solves what predict --contact off --full solves, tets left to turn inside out: contact would take five times as long. What needs the face
- * (incisor show, lower face) only cautions and is left to predict. */
+/* Solves what predict --contact off --full solves, tets left to turn inside out: contact would take five times as long.
+ * What needs the face (incisor show, lower face) only cautions and is left to predict. */
 static bool solve_point(const int32_t *at, const double *start_xyz, void *context, equilibrium *out, verdict *v, err *e)
 {
     audit *a = context;
