@@ -45,7 +45,8 @@ double assembly_energy(assembly *a, const double *x, double *force);
 void assembly_stiffness(assembly *a, const double *x, projection how);
 /* Fills value from edge_block and the boundary's present directions. */
 void assembly_matrix(assembly *a, const boundary *b);
-/* Node block [9] of nodes u <= v in edge_block, NULL where the pattern has none. */
+/* Number of the pair of nodes u <= v, -1 where the pattern has none; its node block [9] in edge_block, NULL so. */
+int32_t assembly_edge(const assembly *a, int32_t u, int32_t v);
 double *assembly_block(const assembly *a, int32_t u, int32_t v);
 /* out[3*node_count] = edge_block times d[3*node_count], all nodes. */
 void assembly_multiply(const assembly *a, const double *d, double *out);

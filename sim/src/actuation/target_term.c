@@ -17,21 +17,6 @@ struct target_pull {
     double *pull, *energy; /* [3*count], [count] of each point, mN and uJ */
 };
 
-/* Pair (low, high) of the assembly, which are sorted. */
-static int32_t find_edge(const assembly *a, int32_t low, int32_t high)
-{
-    int32_t from = 0, to = a->edge_count;
-    while (from < to) {
-        int32_t mid = from + (to - from) / 2;
-        const int32_t *edge = a->edge_node + 2 * (size_t)mid;
-        if (edge[0] < low || (edge[0] == low && edge[1] < high))
-            from = mid + 1;
-        else
-            to = mid;
-    }
-    return from;
-}
-
 /* start[owners + 1] and source[count] by owner[count], in their own order. */
 static void sort_by_owner(const int32_t *owner, const int32_t *value, int32_t count, int32_t owners, int32_t *start,
                           int32_t *source)
@@ -70,7 +55,7 @@ target_pull *target_pull_make(const targets *t, const tetmesh *m, const assembly
             for (int32_t d = c; d < 4; d++) {
                 const int32_t *tet = m->tet + 4 * (size_t)t->tet[k];
                 bool turned = tet[c] > tet[d];
-                owner[count] = find_edge(a, turned ? tet[d] : tet[c], turned ? tet[c] : tet[d]);
+                owner[count] = assembly_edge(a, turned ? tet[d] : tet[c], turned ? tet[c] : tet[d]);
                 value[count++] = 16 * k + (turned ? 4 * d + c : 4 * c + d);
             }
     sort_by_owner(owner, value, count, a->edge_count, p->edge_start, p->edge_source);

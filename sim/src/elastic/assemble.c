@@ -147,7 +147,7 @@ void assembly_matrix(assembly *a, const boundary *b)
     }
 }
 
-double *assembly_block(const assembly *a, int32_t u, int32_t v)
+int32_t assembly_edge(const assembly *a, int32_t u, int32_t v)
 {
     int32_t low = 0, high = a->edge_count; /* pairs ascend */
     while (low < high) {
@@ -159,7 +159,13 @@ double *assembly_block(const assembly *a, int32_t u, int32_t v)
             high = middle;
     }
     const int32_t *pair = a->edge_node + 2 * (size_t)low;
-    return low < a->edge_count && pair[0] == u && pair[1] == v ? a->edge_block + 9 * (size_t)low : NULL;
+    return low < a->edge_count && pair[0] == u && pair[1] == v ? low : -1;
+}
+
+double *assembly_block(const assembly *a, int32_t u, int32_t v)
+{
+    int32_t edge = assembly_edge(a, u, v);
+    return edge < 0 ? NULL : a->edge_block + 9 * (size_t)edge;
 }
 
 void assembly_multiply(const assembly *a, const double *d, double *out)
